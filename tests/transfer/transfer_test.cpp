@@ -108,6 +108,30 @@ TEST(Transfer, other_bones_than_the_templates_are_refused_with_both_lists) {
   }
 }
 
+TEST(Transfer, bones_that_are_there_but_cannot_be_used_are_named) {
+  const TestFolder folder;
+  write_bones(folder.path() / "points", small_hip(), {{"hip_bone_r", "hip_bone_r.vtp"}, {"femur_r", "femur_r.vtp"}},
+              [](const Vec3&) { return Vec3(0.1, 0.2, 0.3); });
+  try {
+    find_surfaces(folder.path() / "points");
+    FAIL() << "bones without size went through";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 3u);
+    EXPECT_THAT(error.problems()[0].what, HasSubstr("can be read"));
+    EXPECT_THAT(error.problems()[1].file + error.problems()[1].what, HasSubstr("femur_r.vtp"));
+    EXPECT_THAT(error.problems()[2].what, HasSubstr("one point"));
+  }
+  write_bones(folder.path() / "one", small_hip(), {{"hip_bone_r", "hip_bone_r.vtp"}}, bent);
+  write_bones(folder.path() / "one", small_hip(), {{"femur_r", "femur_r.vtp"}},
+              [](const Vec3&) { return Vec3(0.1, 0.2, 0.3); });
+  try {
+    transfer(small_hip(), find_surfaces(folder.path() / "one"), {});
+    FAIL() << "a hip without a femur went through";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("femur_r.vtp"));
+  }
+}
+
 TEST(Transfer, volumes_of_muscles_that_are_not_there_are_refused) {
   const TestFolder folder;
   write_bones(folder.path(), small_hip(), {{"femur_r", "femur_r.vtp"}}, bent);
@@ -133,6 +157,13 @@ TEST(TransferInputs, volumes_come_as_volumes_or_masses) {
   const auto masses = read_volumes(folder.write("m.csv", "muscle,mass_g\niliacus_r,106\n"));
   EXPECT_NEAR(masses.at("iliacus_r"), 1e-4, 1e-12);
   EXPECT_THROW(read_volumes(folder.write("n.csv", "muscle,mass_g\niliacus_r,-1\n")), InputError);
+  for (const char* amount : {"1e300", "1e-300"}) try {
+      read_volumes(folder.write("p.csv", std::string("muscle,volume_cm3\niliacus_r,") + amount + "\n"));
+      FAIL() << amount << " went through";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr(std::string("no muscle has a volume of ") + (amount[2] == '-' ? "1e-300" : "1e+300")));
+    }
   EXPECT_THROW(read_volumes(folder.write("o.csv", "muscle,mass\niliacus_r,1\n")), InputError);
 }
 

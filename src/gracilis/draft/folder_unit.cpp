@@ -30,27 +30,40 @@ Real largest_extent(const Points& points) {
   return bounding_box(points).sizes().maxCoeff();
 }
 
-/// Half of the bones are this much larger than those of a grown person, were the files in metres.
-Real median_size(const FolderFiles& files) {
+/// Of each bone of the dictionary how much larger it is than a grown person's, were the files in metres; `failed` is
+/// told of those whose surface tells no size.
+std::vector<Real> sizes_of_bones(const FolderFiles& files, std::vector<Problem>& failed) {
   std::vector<Real> ratios;
   for (const NamedSurfaceFile& each : files.surfaces) {
     if (!is_surely_a_bone(each)) continue;
     try {
       const Real ratio = largest_extent(files.meshes->read(each.file, 1, each.part).vertices) / each.bone.known->length;
-      if (ratio > 0 && std::isfinite(ratio)) ratios.push_back(ratio);
-    } catch (const InputError&) {
-      continue;  // said where the surface is read for its use
+      if (ratio > 0 && std::isfinite(ratio))
+        ratios.push_back(ratio);
+      else
+        failed.push_back({each.file.string(), "", "has no size: its vertices lie in one point, or are not finite",
+                          "export the surface again"});
+    } catch (const InputError& error) {
+      failed.insert(failed.end(), error.problems().begin(), error.problems().end());
     }
   }
-  return median(std::move(ratios));
+  return ratios;
+}
+
+[[noreturn]] void refuse_without_size(const FolderFiles& files, const fs::path& folder, std::vector<Problem> failed) {
+  Problem first = {folder.string(), "", "holds no bone whose name is known",
+                   "name bones as in femur_r.ply or 'left scapula.stl', in English or Latin, with _r or _l"};
+  if (!failed.empty()) first = {folder.string(), "", "no bone whose name is known can be read", "see what each lacks"};
+  failed.insert(failed.begin(), first);
+  for (const std::string& line : files.unreadable) failed.push_back({"left out", "", line, ""});
+  throw InputError(failed);
 }
 
 void choose_unit(const FolderFiles& files, const fs::path& folder, FoundFolder& found) {
-  const Real size = median_size(files);
-  if (size == 0) {
-    throw InputError({folder.string(), "", "holds no bone whose name is known",
-                      "name bones as in femur_r.ply or 'left scapula.stl', in English or Latin, with _r or _l"});
-  }
+  std::vector<Problem> failed;
+  std::vector<Real> sizes = sizes_of_bones(files, failed);
+  if (sizes.empty()) refuse_without_size(files, folder, std::move(failed));
+  const Real size = median(std::move(sizes));
   const auto off = [&](const Unit& unit) { return std::abs(std::log(size * unit.length)); };
   const Unit& best =
       *std::min_element(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
@@ -71,7 +84,9 @@ void take_unit(const FolderFiles& files, const std::string& name, FoundFolder& f
   for (const Unit& unit : units)
     if (unit.name == name) found.unit_length = unit.length;
   found.unit = name;
-  if (const Real size = median_size(files); size > 0) found.size = size * found.unit_length;
+  std::vector<Problem> told_where_read;
+  std::vector<Real> sizes = sizes_of_bones(files, told_where_read);
+  if (!sizes.empty()) found.size = median(std::move(sizes)) * found.unit_length;
 }
 
 }  // namespace

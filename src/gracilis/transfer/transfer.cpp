@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/median.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/transfer/carried_part.hpp>
 #include <gracilis/transfer/mirrored_scene.hpp>
 #include <gracilis/transfer/space_warp.hpp>
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace gracilis {
 namespace {
@@ -33,6 +33,13 @@ void take_side(const Scene& scene, const TransferOptions& options, Transferred& 
   result.guesses.push_back({"side", "no bone's name says right or left: taken as " + side_word(side), 0.5});
 }
 
+/// With what the folder holds and was not taken: it may be what is missing.
+[[noreturn]] void refuse(const FoundFolder& subject, const std::string& what, const std::string& remedy) {
+  std::vector<Problem> problems = {{"--bones", "", what, remedy}};
+  for (const std::string& line : subject.left_out) problems.push_back({"left out", "", line, ""});
+  throw InputError(problems);
+}
+
 /// The template as it is or mirrored, whichever has more bones in the subject; or as asked for.
 void choose_half(const Scene& scene, const TransferOptions& options, Transferred& result) {
   const Scene other = mirrored_scene(scene);
@@ -46,52 +53,20 @@ void choose_half(const Scene& scene, const TransferOptions& options, Transferred
   std::vector<std::string> wanted, here;
   for (const Bone& bone : result.whole_template.bones) wanted.push_back(bone.name);
   for (const FoundBone& bone : result.subject.bones) here.push_back(bone.name);
-  throw InputError({"--bones", "",
-                    fmt::format("none of the template's bones ({}) is among the subject's ({})",
-                                fmt::join(wanted, ", "), fmt::join(here, ", ")),
-                    "name bones as in femur_r.ply or 'left scapula.stl', or choose another template"});
+  refuse(result.subject,
+         fmt::format("none of the template's bones ({}) is among the subject's ({})", fmt::join(wanted, ", "),
+                     fmt::join(here, ", ")),
+         "name bones as in femur_r.ply or 'left scapula.stl', or choose another template");
 }
 
-/// Bodies of which nothing is there take their joints and muscles with them.
+/// Bodies of which nothing is there take their joints and muscles with them, and what these alone connected.
 void leave_out(Transferred& result) {
-  Scene& scene = result.scene;
-  const auto has_bones = [&](Index body) { return result.skeleton.has_bones[static_cast<std::size_t>(body)] != 0; };
-  std::set<std::string> without;
-  std::erase_if(scene.joints, [&](const Joint& joint) {
-    if (has_bones(joint.child_body) && has_bones(joint.parent_body)) return false;
-    const Index lacking = has_bones(joint.child_body) ? joint.parent_body : joint.child_body;
-    result.left_out.push_back(fmt::format("joint {}: the subject has no bone of {}", joint.name,
-                                          scene.bodies[static_cast<std::size_t>(lacking)]));
-    return true;
-  });
-  // Muscles that lie on others after those.
-  for (bool any = true; any;) {
-    any = false;
-    for (const Muscle& muscle : scene.muscles) {
-      if (without.count(muscle.name)) continue;
-      for (const Attachment& attachment : muscle.attachments) {
-        const MuscleBody* on = muscle_body(scene, attachment.body);
-        const std::string lower = on ? scene.muscles[static_cast<std::size_t>(on->muscle)].name : "";
-        if (on ? !without.count(lower) : has_bones(attachment.body)) continue;
-        result.left_out.push_back(
-            fmt::format("muscle {}: {}", muscle.name,
-                        on ? "it lies on " + lower
-                           : "the subject has no bone of " + scene.bodies[static_cast<std::size_t>(attachment.body)]));
-        without.insert(muscle.name);
-        any = true;
-        break;
-      }
-    }
-  }
+  keep_connected_part(result.scene, result.skeleton.has_bones, result.left_out);
   for (const std::string& bone : result.matches.missing)
     result.left_out.push_back(fmt::format("bone {}: the subject has none of this name", bone));
-  std::vector<Muscle> kept;
-  for (Muscle& muscle : scene.muscles)
-    if (!without.count(muscle.name)) kept.push_back(std::move(muscle));
-  scene.muscles = std::move(kept);
-  if (scene.muscles.empty())
-    throw InputError({"--bones", "", "no muscle of the template ends on the subject's bones alone",
-                      fmt::format("add the bones that are missing: {}", fmt::join(result.matches.missing, ", "))});
+  if (!result.scene.muscles.empty()) return;
+  refuse(result.subject, "no muscle of the template ends on the subject's bones alone",
+         fmt::format("add the bones that are missing: {}", fmt::join(result.matches.missing, ", ")));
 }
 
 /// With the subject's shapes; those that it lacks have no faces.

@@ -8,6 +8,8 @@
 #include <gracilis/io/scene/landmarks.hpp>
 #include <gracilis/io/toml_reader.hpp>
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <utility>
@@ -39,6 +41,9 @@ LandmarkPoints of_toml(const std::filesystem::path& path, Real unit) {
   if (!problems.empty()) throw ConfigurationError(problems);
   return points;
 }
+
+/// m³: from less than a mouse's muscle to more than any animal's.
+constexpr Real smallest_volume = 1e-10, largest_volume = 1;
 
 constexpr std::array<std::pair<const char*, Real>, 5> amounts = {{{"volume_cm3", 1e-6},
                                                                   {"volume_ml", 1e-6},
@@ -75,6 +80,9 @@ std::map<std::string, Real> read_volumes(const std::filesystem::path& path) {
   while (rows.next()) {
     const Real value = rows.number(*amount, "a volume or a mass");
     if (!(value > 0)) rows.fail("a muscle has no volume of 0 or less");
+    if (!(value * unit >= smallest_volume && value * unit <= largest_volume))
+      rows.fail(fmt::format("no muscle has a volume of {:.3g} cm³", 1e6 * value * unit),
+                "look at the unit in the column's name");
     if (!volumes.emplace(rows.cell(*muscle), value * unit).second) rows.fail("the muscle is there twice");
   }
   return volumes;
