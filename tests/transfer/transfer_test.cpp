@@ -140,6 +140,26 @@ TEST(Transfer, volumes_of_muscles_that_are_not_there_are_refused) {
   EXPECT_THROW(transfer(small_hip(), find_surfaces(folder.path()), options), ConfigurationError);
 }
 
+TEST(Transfer, landmarks_far_from_the_bones_are_refused) {
+  const TestFolder folder;
+  write_bones(folder.path(), small_hip(), {{"hip_bone_r", "hip_bone_r.vtp"}, {"femur_r", "femur_r.vtp"}}, bent);
+  const auto refused = [&](const TransferOptions& options) -> std::string {
+    try {
+      transfer(small_hip(), find_surfaces(folder.path()), options);
+    } catch (const ConfigurationError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const Real far : {30.0, 1e300}) {
+    TransferOptions options;
+    options.landmarks.of_subject = {{"hip_r", bent(Vec3::Zero())}, {"spine", Vec3(0, far, 0)}};
+    EXPECT_THAT(refused(options), AllOf(HasSubstr("--landmarks"), HasSubstr("'spine'"), HasSubstr("unit")));
+    options.landmarks = {{{"spine", Vec3(0, far, 0)}}, {{"hip_r", bent(Vec3::Zero())}}};
+    EXPECT_THAT(refused(options), AllOf(HasSubstr("--template-landmarks"), HasSubstr("'spine'")));
+  }
+}
+
 TEST(MirroredScene, twice_is_the_scene_itself_and_flexion_stays_flexion) {
   const Scene& scene = small_hip();
   const Scene once = mirrored_scene(scene), twice = mirrored_scene(once);

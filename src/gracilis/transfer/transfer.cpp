@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/median.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/transfer/carried_part.hpp>
 #include <gracilis/transfer/mirrored_scene.hpp>
@@ -120,6 +121,18 @@ void pull_apart(const SeparateFunction& separate, Transferred& result) {
   for (std::size_t m = 0; m < muscles.size(); ++m) result.scene.muscles[m].surface = std::move(muscles[m]);
 }
 
+Eigen::AlignedBox3d box_of(const Scene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const Bone& bone : scene.bones) box.extend(bounding_box(bone.surface.vertices));
+  return box;
+}
+
+Eigen::AlignedBox3d box_of(const FoundFolder& subject) {
+  Eigen::AlignedBox3d box;
+  for (const FoundBone& bone : subject.bones) box.extend(bounding_box(bone.mesh.vertices));
+  return box;
+}
+
 /// The template's in the half of the body that was chosen, with the centers of its joints.
 NamedLandmarks common_landmarks(const NamedLandmarks& given, Transferred& result) {
   if (given.of_subject.empty()) return {};
@@ -175,6 +188,8 @@ Transferred transfer(const Scene& scene, FoundFolder subject, const TransferOpti
   choose_half(scene, options, result);
   const Scene& from = result.whole_template;
   require_known_muscles(from, options.volumes);
+  require_near(options.landmarks.of_subject, box_of(result.subject), "--landmarks");
+  require_near(options.landmarks.of_template, box_of(scene), "--template-landmarks");
   const BodyFrame frame = body_frame(result.subject, bone_axes(result.subject));
   result.guesses.insert(result.guesses.begin(), {"directions", frame.how, frame.certainty});
   const AnatomicalAxes axes = {frame.anterior, frame.superior};

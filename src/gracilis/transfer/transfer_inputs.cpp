@@ -13,6 +13,7 @@
 #include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace gracilis {
 namespace {
@@ -62,6 +63,15 @@ LandmarkPoints joint_centers(const Scene& scene) {
   LandmarkPoints points;
   for (const Joint& joint : scene.joints) points[joint.name] = joint.frame.translation();
   return points;
+}
+
+void require_near(const LandmarkPoints& points, const Eigen::AlignedBox3d& bones, const std::string& option) {
+  std::vector<Problem> problems;
+  for (const auto& [name, point] : points)
+    if (const Real away = (point - bones.center()).stableNorm(); !(away <= 10 * bones.diagonal().norm()))
+      problems.push_back({option, "", fmt::format("'{}' lies {:.3g} m away from the bones", name, away),
+                          "look at the unit of the landmarks"});
+  if (!problems.empty()) throw ConfigurationError(problems);
 }
 
 std::map<std::string, Real> read_volumes(const std::filesystem::path& path) {

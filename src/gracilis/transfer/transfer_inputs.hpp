@@ -3,6 +3,8 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <Eigen/Geometry>
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -19,6 +21,10 @@ LandmarkPoints read_landmark_points(const std::filesystem::path& path, Real unit
 
 /// Centers of a scene's joints, by the joints' names.
 LandmarkPoints joint_centers(const Scene& scene);
+
+/// Throws ConfigurationError about `option` where a point lies further from the middle of the bones than ten times the
+/// diagonal of their box, as points in another unit do.
+void require_near(const LandmarkPoints& points, const Eigen::AlignedBox3d& bones, const std::string& option);
 
 /// Volumes of muscles, m³: a .csv with columns muscle and volume_cm3, volume_ml, volume_mm3, mass_g or mass_kg. Throws
 /// InputError with file and line: columns that are missing, cells that are no numbers above 0, a muscle twice.
