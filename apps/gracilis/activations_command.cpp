@@ -32,7 +32,7 @@ struct JoinOptions {
 /// The forces beside a result: the file itself, or that of the same name in the folder, "activation" read as "force".
 fs::path forces_of(const fs::path& forces, const fs::path& result) {
   if (!fs::is_directory(forces)) return forces;
-  const fs::path same = forces / result.filename();
+  fs::path same = forces / result.filename();
   std::string name = result.filename().string();
   const std::size_t word = name.rfind("activation");
   if (word == std::string::npos) return same;

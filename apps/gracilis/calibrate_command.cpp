@@ -62,7 +62,7 @@ SceneMatch ask_scene(const Calibration& calibration, const CalibrateOptions& opt
       },
       silent);
   if (outcome.code != 0) throw Error(static_cast<ExitCode>(outcome.code), outcome.reason);
-  const SceneMatch match = match_from_text(read_text(answer));
+  SceneMatch match = match_from_text(read_text(answer));
   std::filesystem::remove(answer);
   return match;
 }

@@ -83,7 +83,8 @@ std::vector<Candidate> listed(std::vector<Candidate> candidates, const std::stri
 std::vector<Candidate> values_of(const CLI::Option& option, const std::vector<std::string>& words,
                                  const std::string& begun) {
   if (const std::vector<std::string> choices = choices_of(option); !choices.empty()) return words_of(choices);
-  const std::string name = option.get_name(), description = option.get_description();
+  const std::string name = option.get_name();
+  const std::string& description = option.get_description();
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

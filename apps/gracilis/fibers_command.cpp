@@ -82,7 +82,7 @@ static nlohmann::ordered_json surface_coverage(const Muscle& muscle, const Polyl
 /// Those along which the muscle contracts by its settings; returns them as lines.
 static Polylines write_surface_fibers(const Muscle& muscle, const std::filesystem::path& out) {
   const SurfaceFibers found = contracting_fibers(muscle);
-  const Polylines lines = segment_lines(found, muscle.surface.vertices);
+  Polylines lines = segment_lines(found, muscle.surface.vertices);
   LineScalars shared{"fibers", {}};
   for (const FiberSegment& segment : found.segments) shared.values.push_back(segment.fibers);
   if (lines.count() > 0) write_polylines(out / (muscle.name + "_surface_fibers.vtp"), lines, {shared});

@@ -18,7 +18,7 @@ static int print_completions(const CLI::App& program, const std::string& line) {
 
 Command hidden_command(const CLI::App& program, const std::vector<std::string>& words) {
   if (words.size() != 3) return {};
-  const std::string argument = words[2];
+  const std::string& argument = words[2];
   if (words[1] == "complete") return [&program, argument] { return print_completions(program, argument); };
   if (words[1] == "manual")
     return [&program, argument] {

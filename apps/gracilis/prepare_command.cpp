@@ -168,7 +168,9 @@ void add_prepare_command(CLI::App& program, Command& chosen) {
   command->add_flag("--keep-going", options->keep_going,
                     "Write the other muscles where some cannot be prepared; these are named, with exit code 3");
   for (const Setting<PrepareSettings>& setting : setting_table<PrepareSettings>()) {
-    const auto keep = [options, key = std::string(setting.key)](SettingValue value) { options->settings[key] = value; };
+    const auto keep = [options, key = std::string(setting.key)](const SettingValue& value) {
+      options->settings[key] = value;
+    };
     if (setting.kind == SettingKind::flag)
       command->add_flag_callback(
           option_name(setting), [keep] { keep(true); }, std::string(setting.meaning));

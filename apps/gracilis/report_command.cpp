@@ -35,8 +35,8 @@ std::filesystem::path usual_page() {
 
 /// Returns the file that it writes.
 std::filesystem::path write_live(const Options& options, const std::filesystem::path& report) {
-  const std::filesystem::path out = report.parent_path() / "live.html",
-                              page = options.page.empty() ? usual_page() : options.page;
+  std::filesystem::path out = report.parent_path() / "live.html",
+                        page = options.page.empty() ? usual_page() : options.page;
   write_live_page(out, page, scene_of_run(options.runs[0]).scene);
   return out;
 }

@@ -119,7 +119,7 @@ void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
 }
 
 /// Whether a body hangs on the joint.
-bool is_moved_by(const DraftJoint& joint, std::string body, const Skeleton& skeleton) {
+bool is_moved_by(const DraftJoint& joint, const std::string& body, const Skeleton& skeleton) {
   for (const DraftJoint* at = skeleton.joint_of(body); at; at = skeleton.joint_of(at->parent))
     if (at->child == joint.child) return true;
   return false;

@@ -17,7 +17,7 @@ namespace {
 /// Qhull's state and what it prints of troubles, which errors here say in their own words.
 class Hull {
  public:
-  Hull() : messages_(std::tmpfile(), &std::fclose) { qh_zero(&state_, messages_.get() ? messages_.get() : stderr); }
+  Hull() : messages_(std::tmpfile(), &std::fclose) { qh_zero(&state_, messages_ ? messages_.get() : stderr); }
   ~Hull() {
     int left_blocks = 0, left_bytes = 0;
     qh_freeqhull(&state_, !qh_ALL);

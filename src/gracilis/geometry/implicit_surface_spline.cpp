@@ -109,8 +109,9 @@ void ThickSheet::search(const Patch& patch, const Vec3& point, Nearest& best) co
       if (distance >= best.distance) continue;
       best = {distance, 0, 0};
       for (int i = 0; i < 3; ++i) {
-        best.along += l[i] * (corners[i] / columns_) / (rows_ - 1);
-        best.across += l[i] * (corners[i] % columns_) / (columns_ - 1);
+        const int row = corners[i] / columns_, column = corners[i] % columns_;
+        best.along += l[i] * row / (rows_ - 1);
+        best.across += l[i] * column / (columns_ - 1);
       }
     }
   }

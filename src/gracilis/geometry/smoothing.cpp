@@ -8,7 +8,7 @@ static auto towards_mean(const Matrix& before, const VertexStars& stars, Index v
   using Number = typename Matrix::Scalar;
   using Place = Eigen::Vector<Number, Matrix::RowsAtCompileTime>;
   const Index begin = stars.offsets[static_cast<std::size_t>(v)], end = stars.offsets[static_cast<std::size_t>(v) + 1];
-  const Place here = before.col(v);
+  Place here = before.col(v);
   if (begin == end) return here;
   Place mean = Place::Zero();
   for (Index i = begin; i < end; ++i) mean += before.col(stars.neighbors[static_cast<std::size_t>(i)]);

@@ -169,7 +169,7 @@ Vec3 VoxelSolid::first_empty(const Vec3& from, const Vec3& to) const {
   if (!contains(from)) return from;
   const int steps = static_cast<int>(std::ceil((to - from).cwiseQuotient(size_).norm()));
   for (int step = 1; step < steps; ++step)
-    if (const Vec3 place = from + (to - from) * (static_cast<Real>(step) / steps); !contains(place)) return place;
+    if (Vec3 place = from + (to - from) * (static_cast<Real>(step) / steps); !contains(place)) return place;
   return to;
 }
 

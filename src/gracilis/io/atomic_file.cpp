@@ -39,7 +39,7 @@ static fs::path temporary_beside(const fs::path& path) {
 /// An empty file that was not there before and is no link that somebody laid.
 static fs::path new_temporary(const fs::path& path) {
   for (;;) {
-    const fs::path temporary = temporary_beside(path);
+    fs::path temporary = temporary_beside(path);
     const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file >= 0) {
       ::close(file);

@@ -34,12 +34,13 @@ static Eigen::MatrixXd grid_points(const std::vector<Index>& steps, const std::v
 static Eigen::MatrixXd morris_points(Index ways, Index columns, Index levels, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](Index count) { return static_cast<Index>(random() % static_cast<std::uint64_t>(count)); };
-  const Real step = Real(levels / 2) / static_cast<Real>(levels - 1);
+  const Index half = levels / 2;
+  const Real step = static_cast<Real>(half) / static_cast<Real>(levels - 1);
   Eigen::MatrixXd points(ways * (columns + 1), columns);
   for (Index way = 0; way < ways; ++way) {
     Eigen::RowVectorXd low(columns), at(columns);
     for (Index column = 0; column < columns; ++column) {
-      low[column] = static_cast<Real>(below(levels / 2)) / static_cast<Real>(levels - 1);
+      low[column] = static_cast<Real>(below(half)) / static_cast<Real>(levels - 1);
       at[column] = low[column] + (below(2) == 0 ? 0 : step);
     }
     points.row(way * (columns + 1)) = at;

@@ -167,8 +167,7 @@ AnatomicalAxes checked_axes(const AnatomicalAxes& found, Transferred& result) {
   const std::vector<char>& has_bones = result.skeleton.has_bones;
   const auto body = static_cast<std::size_t>(std::find(has_bones.begin(), has_bones.end(), 1) - has_bones.begin());
   const Eigen::Matrix3d& turn = result.skeleton.bodies[body].rotation;
-  const AnatomicalAxes carried = {turn * result.whole_template.axes.anterior,
-                                  turn * result.whole_template.axes.superior};
+  AnatomicalAxes carried = {turn * result.whole_template.axes.anterior, turn * result.whole_template.axes.superior};
   const Real nearly = std::cos(radians(25));
   if (found.anterior.dot(carried.anterior) > nearly && found.superior.dot(carried.superior) > nearly) return found;
   result.guesses.front().how = "the template's, turned as its " + result.whole_template.bodies[body];

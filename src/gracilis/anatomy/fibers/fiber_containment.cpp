@@ -20,7 +20,7 @@ static Vec3 moved_inside(const TriangleMesh& surface, const SignedDistance& dist
   for (const Vec3& direction : {Vec3(inwards.normalized()), normal}) {
     Real step = depth;
     for (int halving = 0; halving < 5; ++halving, step /= 2) {
-      const Vec3 q = nearest + step * direction;
+      Vec3 q = nearest + step * direction;
       if (distance.query(q).distance < 0) return q;
     }
   }

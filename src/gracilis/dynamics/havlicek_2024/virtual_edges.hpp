@@ -30,7 +30,7 @@ struct VirtualEdgeSettings {
 /// 5.2.1).
 struct VirtualEdge {
   Index a = 0, b = 0;
-  auto operator<=>(const VirtualEdge&) const = default;  ///< by a, then by b
+  auto operator<=>(const VirtualEdge&) const = default;  ///< by a, then by b  NOLINT(modernize-use-nullptr)
 };
 
 /// Two surfaces that keep out of each other by virtual edges.

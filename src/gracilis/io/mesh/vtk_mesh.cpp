@@ -16,7 +16,7 @@ static vtkSmartPointer<vtkPoints> to_vtk_points(const Points& points) {
   coordinates->SetNumberOfComponents(3);
   coordinates->SetNumberOfTuples(points.cols());
   std::copy(points.data(), points.data() + points.size(), coordinates->GetPointer(0));
-  const auto vtk_points = vtkSmartPointer<vtkPoints>::New();
+  auto vtk_points = vtkSmartPointer<vtkPoints>::New();
   vtk_points->SetData(coordinates);
   return vtk_points;
 }
@@ -27,7 +27,7 @@ vtkSmartPointer<vtkPolyData> to_vtk(const Polylines& lines) {
   for (Eigen::Index i = 0; i < lines.points.cols(); ++i) indices->InsertNextValue(static_cast<vtkTypeInt32>(i));
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, indices);
-  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(to_vtk_points(lines.points));
   data->SetLines(cells);
   return data;
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkPolyData> to_vtk(const Points& points, const Eigen::Matrix3Xi
   vtkNew<vtkCellArray> triangles;
   triangles->SetData(offsets, indices);
 
-  const auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(to_vtk_points(points));
   mesh->SetPolys(triangles);
   return mesh;

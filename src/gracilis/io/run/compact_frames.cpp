@@ -109,7 +109,7 @@ std::shared_ptr<const VtpFile> CompactShapes::file(int frame) const {
   // Behind the lock: of several threads that ask for a frame the first one reads it.
   const std::lock_guard lock(kept_->mutex);
   if (std::shared_ptr<const VtpFile> known = kept_->find(frame)) return known;
-  const auto file = std::make_shared<const VtpFile>(shapes_file(folder_, frame));
+  auto file = std::make_shared<const VtpFile>(shapes_file(folder_, frame));
   ++kept_->files_read;
   kept_->keep(frame, file);
   return file;

@@ -275,7 +275,7 @@ std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std:
 }
 
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
-  const Points tissue = file_of_muscle(run, muscle, 0)->vectors(tissue_name, piece_of_muscle(run.layout, muscle));
+  Points tissue = file_of_muscle(run, muscle, 0)->vectors(tissue_name, piece_of_muscle(run.layout, muscle));
   if (tissue.cols() > 0) require_count(run, muscle, 0, tissue.cols());
   require_finite(tissue, file_of_surface(run.folder, run.layout, muscle, 0), "a share of tissue");
   return tissue;

@@ -37,7 +37,7 @@ fs::path located(const SceneInProgress& progress, const NamedFile& file) {
 
 /// Where the file was looked for.
 static std::string places_of(const NamedFile& file, const fs::path& root) {
-  const std::string places = "looked for '" + beside_scene(file).lexically_normal().string() + "'";
+  std::string places = "looked for '" + beside_scene(file).lexically_normal().string() + "'";
   if (!fs::path(file.path).is_relative()) return places;
   if (root.empty()) return places + "; there is no data root: give --data DIR or set GRACILIS_DATA";
   return places + " and '" + (root / file.path).lexically_normal().string() + "'";

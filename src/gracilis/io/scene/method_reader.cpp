@@ -18,7 +18,7 @@ const MethodEntry& read_method(TomlReader& top, MethodChoice& choice) {
 }
 
 std::optional<Preset> named_preset(TomlReader& top, const std::string& name) {
-  const std::optional<Preset> preset = find_preset(name);
+  std::optional<Preset> preset = find_preset(name);
   if (preset) return preset;
   std::vector<std::string> names;
   for (const Preset& each : presets()) names.emplace_back(each.name);

@@ -267,7 +267,7 @@ std::string coordinate_of_column(const std::string& column) {
 
 /// The same, but empty for what moves along and for speeds; `translations` are coordinates that may move along.
 static std::string moving_coordinate(const std::string& column, const std::vector<std::string>& translations) {
-  const std::string name = coordinate_of_column(column);
+  std::string name = coordinate_of_column(column);
   if (std::find(translations.begin(), translations.end(), name) != translations.end()) return name;
   for (const char* ending : {"_tx", "_ty", "_tz", "Translation", "_speed", "_u"}) {
     if (name.ends_with(ending)) return "";

@@ -90,7 +90,7 @@ Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
     if (point.held_by >= 0) holds[static_cast<std::size_t>(point.at.cell)] = 1;
   std::array<Real, 2> sum{}, filled{};
   for (std::size_t c = 0; c < holds.size(); ++c) {
-    const auto which = static_cast<std::size_t>(holds[c]);
+    const std::size_t which = holds[c] ? 1 : 0;
     sum[which] += prepared.lattice.cells[c].fill * gradients.col(static_cast<Index>(c)).norm();
     filled[which] += prepared.lattice.cells[c].fill;
   }

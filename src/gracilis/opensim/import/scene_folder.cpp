@@ -50,7 +50,7 @@ static constexpr Real told_share = 0.75;
 static constexpr int iterations_apart = 60;
 
 static std::string head(const Model& model, bool apart) {
-  const std::string text = fmt::format(
+  std::string text = fmt::format(
       "# Made of the OpenSim model {} by 'gracilis import'. Bones and muscles in the pose of its default\n"
       "# coordinates. Muscles are {} about the model's lines, with the volumes that its forces and fiber\n"
       "# lengths ask for{}.\n"

@@ -25,7 +25,7 @@ static void make_ellipsoid(const Vec3& radii, Joint& joint) {
 }
 
 static Vec3 read_radii(const XmlContext& context, const pugi::xml_node& node, const char* name) {
-  const Vec3 radii = context.vector(node, name, Vec3::Constant(-1));
+  Vec3 radii = context.vector(node, name, Vec3::Constant(-1));
   if (!(radii.minCoeff() >= 0)) context.fail(node, fmt::format("needs <{}> of three radii", name), "give them");
   return radii;
 }

@@ -52,7 +52,7 @@ static Function ligament_curve() {
 /// A formula that must be understood; `trial` says which variables it may use.
 static std::string formula(const XmlContext& context, const pugi::xml_node& node, const char* name,
                            const Variables& trial) {
-  const std::string text = context.text(node, name);
+  std::string text = context.text(node, name);
   if (text.empty()) return "0";
   try {
     value(text, trial);

@@ -166,7 +166,8 @@ std::string to_svg(const LineChart& chart) {
   }
   for (std::size_t i = 0; legend_height > 0 && i < named.size(); ++i) {
     const Real x = left + static_cast<Real>(i % per_row) * (right_edge - left) / per_row;
-    const Real y = height + legend_row * static_cast<Real>(i / per_row);
+    const std::size_t row = i / per_row;
+    const Real y = height + legend_row * static_cast<Real>(row);
     const ChartSeries& series = chart.series[named[i]];
     svg += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"4\"{}/>\n", x,

@@ -47,9 +47,9 @@ LineChart muscles_chart(const Table& table, const ChartCoordinate& coordinate, c
                         const std::string& title, const std::string& y_label) {
   LineChart chart{title, coordinate.label, y_label, {}};
   const std::vector<Real> x = column(table, coordinate.name, coordinate.factor);
-  for (std::size_t i = 0; i < muscles.size(); ++i) {
-    const std::vector<Real> y = column(table, muscles[i], 1000);
-    if (!y.empty()) chart.series.push_back({muscles[i], x, y, muscle_color(muscles[i]), 2});
+  for (const std::string& muscle : muscles) {
+    const std::vector<Real> y = column(table, muscle, 1000);
+    if (!y.empty()) chart.series.push_back({muscle, x, y, muscle_color(muscle), 2});
   }
   return chart;
 }
@@ -85,8 +85,7 @@ static LineChart measures_chart(const fs::path& file, const Scene& scene, const 
   };
   const std::size_t frame = index_of("frame"), muscle = index_of("muscle"), value = index_of(shown.column);
   LineChart chart{scene.name + ": " + shown.title, "frame", shown.y_label, {}, shown.limits};
-  for (std::size_t i = 0; i < scene.muscles.size(); ++i)
-    chart.series.push_back({scene.muscles[i].name, {}, {}, muscle_color(scene.muscles[i].name), 2});
+  for (const Muscle& each : scene.muscles) chart.series.push_back({each.name, {}, {}, muscle_color(each.name), 2});
   while (!reader.at_end()) {
     const std::vector<std::string_view> cells = cells_of(reader.line());
     if (cells.size() <= std::max({frame, muscle, value})) continue;

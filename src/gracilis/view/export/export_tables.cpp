@@ -32,7 +32,7 @@ void export_obj(const RecordedRun& run, const fs::path& folder, const std::vecto
     materials += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", name, color.x(), color.y(), color.z());
   };
   for (const std::string& bone : run.bones) add_material(bone, bone_color());
-  for (std::size_t m = 0; m < run.muscles.size(); ++m) add_material(run.muscles[m], muscle_color(run.muscles[m]));
+  for (const std::string& muscle : run.muscles) add_material(muscle, muscle_color(muscle));
   write_text_atomically(folder / "run.mtl", materials);
   std::vector<std::string> names = run.bones;
   names.insert(names.end(), run.muscles.begin(), run.muscles.end());

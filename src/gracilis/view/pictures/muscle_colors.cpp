@@ -90,8 +90,9 @@ struct PartShift {
 PartShift shift_of_part(std::size_t number) {
   constexpr std::array<PartShift, 3> shifts = {{{5, 8}, {-5, -8}, {0, 0}}};
   if (number == 0) return {};
+  const std::size_t round = (number - 1) / 3;
   const PartShift& shift = shifts[(number - 1) % 3];
-  return {shift.shade, shift.turn + 3 * static_cast<Real>((number - 1) / 3)};
+  return {shift.shade, shift.turn + 3 * static_cast<Real>(round)};
 }
 
 }  // namespace

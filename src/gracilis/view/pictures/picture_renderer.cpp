@@ -37,7 +37,7 @@ static vtkSmartPointer<vtkFloatArray> vertex_normals(const TriangleMesh& mesh) {
     const Vec3 normal = (mesh.vertices.col(face[1]) - a).cross(mesh.vertices.col(face[2]) - a);
     for (const int vertex : face) normals.col(vertex) += normal;
   }
-  const auto array = vtkSmartPointer<vtkFloatArray>::New();
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName("Normals");
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(normals.cols());
@@ -47,7 +47,7 @@ static vtkSmartPointer<vtkFloatArray> vertex_normals(const TriangleMesh& mesh) {
 
 /// One color per point or cell, as bytes, which VTK takes for colors.
 static vtkSmartPointer<vtkUnsignedCharArray> color_array(const Points& colors) {
-  const auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(colors.cols());
   Eigen::Map<Eigen::Matrix<unsigned char, 3, Eigen::Dynamic>>(array->GetPointer(0), 3, colors.cols()) =
@@ -88,7 +88,7 @@ static Points faded(const Points& points, const Color& color, const Vec3& lookin
 }
 
 static vtkSmartPointer<vtkTubeFilter> tubes_around(vtkPolyData& lines, Real radius) {
-  const auto tubes = vtkSmartPointer<vtkTubeFilter>::New();
+  auto tubes = vtkSmartPointer<vtkTubeFilter>::New();
   tubes->SetInputData(&lines);
   tubes->SetRadius(radius);
   tubes->SetNumberOfSides(8);
@@ -165,7 +165,7 @@ static void place_camera(const CameraView& view, Real half_height, vtkRenderer& 
 /// `part` lies in `area`, which the window shows.
 static vtkSmartPointer<vtkRenderer> renderer_in(const Rectangle& part, const Rectangle& area, const Color& background,
                                                 vtkRenderWindow& window) {
-  const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
   const int x = part.x - area.x, y = part.y - area.y;
   renderer->SetViewport(Real(x) / area.width, Real(y) / area.height, Real(x + part.width) / area.width,
                         Real(y + part.height) / area.height);

@@ -27,7 +27,7 @@ constexpr int largest_caption = 24, least_in_one_line = 16, smallest_letters = 1
 constexpr Real caption_pitch = 1.2;  // of a font
 
 vtkSmartPointer<vtkTextActor> text_actor(const std::string& text, int pixels, bool bold) {
-  const auto actor = vtkSmartPointer<vtkTextActor>::New();
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(text.c_str());
   vtkTextProperty* property = actor->GetTextProperty();
   property->SetFontFamilyToArial();
@@ -265,7 +265,8 @@ void draw_color_bar(const ColorBar& bar, const PictureLayout& layout, int scale,
   const Real font = std::clamp<Real>(most, px(smallest_letters), px(18));
   const vtkSmartPointer<vtkTextActor> title = text_actor(bar.title, static_cast<int>(font * scale), false);
   title->GetTextProperty()->SetJustificationToRight();
-  title->SetPosition((left - px(14)) * scale, (bottom + height / 2) * scale);
+  const int middle = bottom + height / 2;
+  title->SetPosition((left - px(14)) * scale, middle * scale);
   renderer.AddActor2D(title);
   for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
     const vtkSmartPointer<vtkTextActor> tick = text_actor(bar.ticks[i], px(15) * scale, false);

@@ -310,7 +310,7 @@ Points RunPainter::room(int first) const {
       corners[i].col(2 * static_cast<Index>(n) + 1) = seen.rowwise().maxCoeff();
     }
   });
-  const Points all = join(corners).points;
+  Points all = join(corners).points;
   if (all.cols() == 0) return all;
   Points room(3, 2);
   room << all.rowwise().minCoeff(), all.rowwise().maxCoeff();

@@ -63,8 +63,7 @@ void add_bones(const Scene& scene, Real opacity, Panel& panel) {
 }
 
 void add_muscles(const Scene& scene, Panel& panel) {
-  for (std::size_t m = 0; m < scene.muscles.size(); ++m)
-    panel.surfaces.push_back({"", scene.muscles[m].surface, muscle_color(scene.muscles[m].name)});
+  for (const Muscle& muscle : scene.muscles) panel.surfaces.push_back({"", muscle.surface, muscle_color(muscle.name)});
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ vtkSmartPointer<vtkTexture> stripe_texture() {
   for (int i = 0; i < 2 * width; ++i)
     for (int k = 0; k < 3; ++k)
       *pixels++ = static_cast<unsigned char>(std::lround(255 * bright[static_cast<std::size_t>(i % width)]));
-  const auto texture = vtkSmartPointer<vtkTexture>::New();
+  auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(image);
   texture->InterpolateOn();
   texture->MipmapOn();
@@ -28,7 +28,7 @@ vtkSmartPointer<vtkTexture> stripe_texture() {
 }
 
 vtkSmartPointer<vtkFloatArray> stripe_places(const std::vector<Real>& stripes) {
-  const auto array = vtkSmartPointer<vtkFloatArray>::New();
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetNumberOfComponents(2);
   array->SetNumberOfTuples(static_cast<vtkIdType>(stripes.size()));
   for (std::size_t v = 0; v < stripes.size(); ++v)

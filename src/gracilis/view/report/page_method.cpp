@@ -25,7 +25,7 @@ static Real triangles_over_copies(const Scene& scene, Real edge) {
 }
 
 MethodChoice page_method(const Scene& scene) {
-  const MethodChoice fast = find_preset("fast")->method;
+  MethodChoice fast = find_preset("fast")->method;
   const Real edge = std::get<Real>(fast.settings.at("simulated_edge"));
   if (triangles_over_copies(scene, edge) > worthwhile_ratio) return fast;
   return {"xpbd", {{"iterations", few_iterations}, {"settling_rounds", few_rounds}}};

@@ -222,9 +222,9 @@ static Json poses_of(const RecordedRun& run) {
 
 Json report_data(const RecordedRun& run) {
   Json muscles = Json::array();
-  for (std::size_t i = 0; i < run.muscles.size(); ++i) {
-    const Color color = 255 * muscle_color(run.muscles[i]);
-    muscles.push_back({{"name", run.muscles[i]},
+  for (const std::string& muscle : run.muscles) {
+    const Color color = 255 * muscle_color(muscle);
+    muscles.push_back({{"name", muscle},
                        {"color", fmt::format("#{:02x}{:02x}{:02x}", std::lround(color.x()), std::lround(color.y()),
                                              std::lround(color.z()))}});
   }

@@ -60,7 +60,7 @@ void require_free(const std::filesystem::path& folder, bool force) {
 SessionResult record_tables(const LoadedScene& loaded, const SessionOptions& options, const SessionListener& listener) {
   const std::atomic<bool>& stop = listener.stop_or_never();
   const Scene& scene = loaded.scene;
-  const SessionResult interrupted = {ExitCode::interrupted, options.out};
+  SessionResult interrupted = {ExitCode::interrupted, options.out};
   const ThreadLimit threads(options.threads);
   create_folder(options.out);
   const FolderLock lock(options.out);

@@ -28,7 +28,7 @@ const ColorScale& slice_scale() {
 static Eigen::AlignedBox3d box_along(const Eigen::Matrix3d& axes, const ShownShapes& shapes, const ShownFrame& frame) {
   Eigen::AlignedBox3d box;
   for (std::size_t b = 0; b < shapes.bones.size(); ++b)
-    for (const Eigen::Vector3f& point : shapes.bone_points[b].colwise())
+    for (const auto& point : shapes.bone_points[b].colwise())
       box.extend(axes.transpose() * (frame.bones[b] * Vec3(point.cast<Real>())));
   return box;
 }

@@ -18,7 +18,7 @@
 namespace gracilis {
 
 static vtkSmartPointer<vtkPolyData> make_shapes() {
-  const auto shapes = vtkSmartPointer<vtkPolyData>::New();
+  auto shapes = vtkSmartPointer<vtkPolyData>::New();
   shapes->SetPoints(vtkNew<vtkPoints>());
   shapes->SetPolys(vtkNew<vtkCellArray>());
   vtkNew<vtkUnsignedCharArray> colors;
@@ -41,7 +41,7 @@ static void add_polygon(const Points& corners, const Rectangle& part, const Colo
 static vtkSmartPointer<vtkActor2D> actor_of(vtkPolyData* shapes) {
   vtkNew<vtkPolyDataMapper2D> mapper;
   mapper->SetInputData(shapes);
-  const auto actor = vtkSmartPointer<vtkActor2D>::New();
+  auto actor = vtkSmartPointer<vtkActor2D>::New();
   actor->SetMapper(mapper);
   return actor;
 }
@@ -78,14 +78,14 @@ void Overlay::add_triangle(const Rectangle& part, const Color& color) {
 vtkSmartPointer<vtkActor2D> Overlay::add_mark(const Rectangle& part, const Color& color) {
   const vtkSmartPointer<vtkPolyData> shape = make_shapes();
   add_polygon(corners_of(part), {}, color, 1, *shape);
-  const vtkSmartPointer<vtkActor2D> actor = actor_of(shape);
+  vtkSmartPointer<vtkActor2D> actor = actor_of(shape);
   actor->SetPosition(part.x, part.y);
   renderer_.AddActor2D(actor);
   return actor;
 }
 
 static vtkSmartPointer<vtkTextActor> make_text(const std::string& text, int size) {
-  const auto actor = vtkSmartPointer<vtkTextActor>::New();
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(text.c_str());
   actor->GetTextProperty()->SetFontFamilyToArial();
   actor->GetTextProperty()->SetFontSize(size);
@@ -99,7 +99,7 @@ int Overlay::width_of(const std::string& text, int size) const {
 }
 
 vtkSmartPointer<vtkTextActor> Overlay::add_text(int x, int y, const std::string& text, int size, const Color& color) {
-  const vtkSmartPointer<vtkTextActor> actor = make_text(text, size);
+  vtkSmartPointer<vtkTextActor> actor = make_text(text, size);
   actor->SetPosition(x, y);
   actor->GetTextProperty()->SetColor(color.x(), color.y(), color.z());
   renderer_.AddActor2D(actor);
@@ -108,14 +108,14 @@ vtkSmartPointer<vtkTextActor> Overlay::add_text(int x, int y, const std::string&
 
 vtkSmartPointer<vtkTextActor> Overlay::add_text_right(int x, int y, const std::string& text, int size,
                                                       const Color& color) {
-  const vtkSmartPointer<vtkTextActor> actor = add_text(x, y, text, size, color);
+  vtkSmartPointer<vtkTextActor> actor = add_text(x, y, text, size, color);
   actor->GetTextProperty()->SetJustificationToRight();
   return actor;
 }
 
 vtkSmartPointer<vtkTextActor> Overlay::add_text_centered(int x, int y, const std::string& text, int size,
                                                          const Color& color) {
-  const vtkSmartPointer<vtkTextActor> actor = add_text(x, y, text, size, color);
+  vtkSmartPointer<vtkTextActor> actor = add_text(x, y, text, size, color);
   actor->GetTextProperty()->SetJustificationToCentered();
   return actor;
 }

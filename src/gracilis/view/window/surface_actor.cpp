@@ -25,7 +25,7 @@
 namespace gracilis {
 
 static vtkSmartPointer<vtkFloatArray> float_array(const ShownPoints& values) {
-  const auto array = vtkSmartPointer<vtkFloatArray>::New();
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(values.cols());
   Eigen::Map<ShownPoints>(array->GetPointer(0), 3, values.cols()) = values;
@@ -45,7 +45,7 @@ static ShownPoints vertex_normals(const ShownPoints& points, const Eigen::Matrix
 
 /// One color per entry, as bytes, which VTK takes for colors.
 static vtkSmartPointer<vtkUnsignedCharArray> color_array(const std::vector<Color>& colors) {
-  const auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(static_cast<vtkIdType>(colors.size()));
   unsigned char* bytes = array->GetPointer(0);

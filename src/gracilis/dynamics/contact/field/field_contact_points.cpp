@@ -42,7 +42,7 @@ static Eigen::Matrix3f tested_part(const Eigen::Vector3f& movable, float unteste
 
 Eigen::Vector3f deepest_tested(const FieldGrid& grid, const std::array<ContactCorner, 3>& corners,
                                const Eigen::Vector3f& movable, float untested) {
-  const Eigen::Vector3f deepest = deepest_on_face(grid, corners);
+  Eigen::Vector3f deepest = deepest_on_face(grid, corners);
   if (deepest.dot(movable) >= untested) return deepest;
   const Eigen::Matrix3f part = tested_part(movable, untested);
   std::array<ContactCorner, 3> tested;

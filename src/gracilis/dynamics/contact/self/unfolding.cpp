@@ -130,7 +130,7 @@ Eigen::Vector3f offset_where_thin(const ContactSurface& surface, Index particle,
     const Eigen::Vector3f corner = rest.col(surface.faces(0, face));
     return (rest.col(surface.faces(1, face)) - corner).cross(rest.col(surface.faces(2, face)) - corner);
   });
-  const Eigen::Vector3f offset = rest.col(particle) - sum / count;
+  Eigen::Vector3f offset = rest.col(particle) - sum / count;
   if (!(offset.dot(normal.normalized()) > thin * edges / count)) return Eigen::Vector3f::Zero();
   return offset;
 }
@@ -170,7 +170,7 @@ void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, in
 void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
                    int rounds, float most, Particles& particles) {
   relax(surface, cuts, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
-    const Eigen::Vector3f middle = middle_of_neighbors(surface, particle, particles);
+    Eigen::Vector3f middle = middle_of_neighbors(surface, particle, particles);
     const Eigen::Vector3f offset = offset_where_thin(surface, particle, rest);
     if (offset.isZero(0)) return middle;
     return middle + fit(with_rings(surface, {particle}, rings_around_particle), rest, particles).linear * offset;

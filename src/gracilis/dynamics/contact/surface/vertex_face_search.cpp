@@ -99,7 +99,7 @@ void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const
       },
       [&](Index particle, const Eigen::Vector3f& p, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
         const Eigen::Vector3f any_side = Eigen::Vector3f::Zero();
-        const VertexFaceCandidate nearest = nearest_face(
+        VertexFaceCandidate nearest = nearest_face(
             p, any_side, target.tree, bounds, reach, [](Index) { return 1.0f; }, workspace);
         if (nearest.face < 0 || !exit.is_told(particle)) return nearest;
         if (point_gap(p, target.surface, nearest.face, target.particles, target.tree.outward).distance >= 0)
