@@ -80,6 +80,16 @@ TEST(ModelReader, entities_of_a_document_type_stay_unread) {
   EXPECT_EQ(model.bodies.size(), 2u);
 }
 
+TEST(ModelReader, a_model_without_a_name_is_called_as_its_file) {
+  const TestFolder folder;
+  const auto name_of_model = [&](const std::string& attribute) {
+    const std::string text = "<OpenSimDocument Version='40000'><Model" + attribute + "/></OpenSimDocument>";
+    return read_model(folder.write("leg.osim", text)).name;
+  };
+  EXPECT_EQ(name_of_model(""), "leg");
+  EXPECT_EQ(name_of_model(" name='arm'"), "arm");
+}
+
 TEST(ModelReader, lists_what_it_leaves_out) {
   const Model model = model_from(document(
       set("BodySet", body("rod", "<attached_geometry><Brick name=\"box\"/></attached_geometry>")) +

@@ -93,6 +93,7 @@ Model read_model(const std::filesystem::path& path) {
   if (!root) throw InputError({path.string(), "", "holds no model", "is it an .osim file?"});
   Model model;
   model.name = name_of(root);
+  if (model.name.empty()) model.name = path.stem().string();
   model.version = file.version;
   if (model.version < 30000)
     model.unsupported.push_back(fmt::format("document version {}, read as one of OpenSim 3", model.version));
