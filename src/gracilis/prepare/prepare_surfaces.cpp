@@ -267,7 +267,8 @@ PreparedSurfaces finished(const std::vector<NamedSurface>& muscles, std::vector<
   }
   Crossings all = before;
   all.insert(after.begin(), after.end());
-  for (const auto& [pair, ignored] : all) {
+  for (const auto& each : all) {
+    const auto& pair = each.first;
     const auto count = [&](const Crossings& crossings) {
       const auto found = crossings.find(pair);
       return found == crossings.end() ? 0 : found->second;

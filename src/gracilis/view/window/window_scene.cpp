@@ -263,9 +263,9 @@ static Eigen::AlignedBox3d box_along(const Eigen::Matrix3d& axes, const ShownSha
   Eigen::AlignedBox3d box;
   for (std::size_t m = 0; m < frame.muscles.size(); ++m)
     if (state.muscles[m] != MuscleState::hidden)
-      for (const Eigen::Vector3f& point : frame.muscles[m].colwise()) box.extend(axes.transpose() * point.cast<Real>());
+      for (const auto& point : frame.muscles[m].colwise()) box.extend(axes.transpose() * point.cast<Real>());
   for (std::size_t b = 0; state.bones && b < frame.bones.size(); ++b)
-    for (const Eigen::Vector3f& point : shapes.bone_points[b].colwise())
+    for (const auto& point : shapes.bone_points[b].colwise())
       box.extend(axes.transpose() * (frame.bones[b] * point.cast<Real>()));
   return box;
 }
