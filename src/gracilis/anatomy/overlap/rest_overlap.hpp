@@ -27,6 +27,19 @@ struct RestOverlap {
   Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }  ///< m, of both
 };
 
+/// The deepest of those vertices of both for which is_free(surface, vertex), m; 0 where there is none.
+template <class IsFree>
+Real deepest_free(const RestOverlap& overlap, const IsFree& is_free) {
+  Real deepest = 0;
+  const auto look_at = [&](Index surface, const InsideVertices& inside) {
+    for (std::size_t i = 0; i < inside.vertices.size(); ++i)
+      if (is_free(surface, inside.vertices[i])) deepest = std::max(deepest, inside.depths[i]);
+  };
+  look_at(overlap.first, overlap.of_first);
+  look_at(overlap.second, overlap.of_second);
+  return deepest;
+}
+
 /// Which surfaces overlap, by exact distances in double precision (SignedDistance), in the order of pairs. Overlaps
 /// without a vertex inside are not seen. Precondition: closed surfaces, oriented outwards, finite.
 std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces);

@@ -35,14 +35,6 @@ void mark_side(const InsideVertices& inside, const std::vector<Real>& astray, bo
   }
 }
 
-/// How deep those lie inside that can move, m.
-float deepest_free(const InsideVertices& inside, const Particles& rest) {
-  Real deepest = 0;
-  for (std::size_t i = 0; i < inside.vertices.size(); ++i)
-    if (rest.inverse_mass(inside.vertices[i]) > 0) deepest = std::max(deepest, inside.depths[i]);
-  return static_cast<float>(deepest);
-}
-
 /// One side of a pair at rest.
 struct RestSide {
   const Particles &probe, &target;
@@ -149,8 +141,8 @@ Real OverlapTable::deepest(Index first, Index second) const {
 void OverlapTable::mark(float reach, const std::vector<const Particles*>& rest, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
-  pair.deepest = std::max(deepest_free(entry->overlap.of_first, *rest[static_cast<std::size_t>(pair.first)]),
-                          deepest_free(entry->overlap.of_second, *rest[static_cast<std::size_t>(pair.second)]));
+  const auto can_move = [&](Index s, Index p) { return rest[static_cast<std::size_t>(s)]->inverse_mass(p) > 0; };
+  pair.deepest = static_cast<float>(deepest_free(entry->overlap, can_move));
   pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   const OverlapSides& sides = entry->sides;
   mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);
