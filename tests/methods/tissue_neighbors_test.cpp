@@ -4,6 +4,8 @@
 
 #include <scenes_for_tests.hpp>
 
+#include "held_tubes.hpp"
+
 #include <gtest/gtest.h>
 
 namespace gracilis {
@@ -11,49 +13,11 @@ namespace {
 
 using namespace tissue;
 
-/// A tube of 160 mm, held by a body of its own at either end.
-Muscle tube_between(const std::string& name, const RigidTransform& place, Index first_body, Index around) {
-  Muscle muscle;
-  muscle.name = name;
-  muscle.surface = shapes::cylinder(0.01, 0.16, around, 2 * around);
-  muscle.surface.vertices.row(2).array() -= 0.08;
-  Attachment origin{"one end", AttachmentEnd::origin, first_body, {}, false};
-  Attachment insertion{"other end", AttachmentEnd::insertion, first_body + 1, {}, false};
-  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
-    if (muscle.surface.vertices(2, v) > 0.07) origin.vertices.push_back(v);
-    if (muscle.surface.vertices(2, v) < -0.07) insertion.vertices.push_back(v);
-  }
-  muscle.attachments = {origin, insertion};
-  muscle.surface.vertices = (place.linear() * muscle.surface.vertices).colwise() + place.translation();
-  return muscle;
-}
-
-/// Two tubes that cross each other in their middles, `gap` apart.
-Scene crossing_tubes(Real gap, Index around = 24) {
-  Scene scene;
-  scene.name = "crossing";
-  scene.bodies = {"a", "b", "c", "d"};
-  const RigidTransform across = Eigen::Translation3d(0.02 + gap, 0, 0) * Eigen::AngleAxisd(pi / 2, Vec3::UnitX());
-  scene.muscles = {tube_between("still", RigidTransform::Identity(), 0, around),
-                   tube_between("moved", across, 2, around)};
-  scene.method.name = "tissue";
-  scene.method.settings = {{"minimizer_iterations", 60}, {"tension_frames", 1}};
-  return scene;
-}
-
 Pose pressed(Real by) {
   Pose pose;
   pose.bodies.assign(4, RigidTransform::Identity());
   for (const std::size_t body : {2, 3}) pose.bodies[body].translation().x() = -by;
   return pose;
-}
-
-/// How deep the deepest vertex of one is in the other, m.
-Real depth(const Scene& scene, const Frame& frame, std::size_t one, std::size_t other) {
-  const SignedDistance distance({frame.muscles[other].points, scene.muscles[other].surface.faces});
-  Real deepest = 0;
-  for (const Vec3& p : frame.muscles[one].points.colwise()) deepest = std::max(deepest, -distance.query(p).distance);
-  return deepest;
 }
 
 Real depth_after_pressing(const Scene& scene, Real by, Real activation = 0) {
@@ -69,20 +33,20 @@ Real depth_after_pressing(const Scene& scene, Real by, Real activation = 0) {
 }
 
 TEST(TissueNeighbors, muscles_that_are_pressed_together_give_way_instead_of_passing_through_each_other) {
-  Scene scene = crossing_tubes(0.001);
+  Scene scene = held_tubes_across(0.001);
   EXPECT_LT(depth_after_pressing(scene, 0.006), 5e-4);
   scene.method.settings["contact_rounds"] = 0;
   EXPECT_GT(depth_after_pressing(scene, 0.006), 3e-3) << "nothing was pressed";
 }
 
 TEST(TissueNeighbors, what_is_seen_of_muscles_keeps_apart_however_soft_their_contact_is) {
-  Scene scene = crossing_tubes(0.001, 40);
+  Scene scene = held_tubes_across(0.001, 40);
   scene.method.settings["neighbor_stiffness"] = 1e7;
   EXPECT_LT(depth_after_pressing(scene, 0.004), 2e-4);
 }
 
 TEST(TissueNeighbors, active_muscles_press_harder_and_come_no_deeper_into_each_other) {
-  Scene scene = crossing_tubes(0.001);
+  Scene scene = held_tubes_across(0.001);
   const Real deepest = depth_after_pressing(scene, 0.006, 1);
   scene.method.settings["neighbor_per_tension"] = 0.0;
   const Real soft = depth_after_pressing(scene, 0.006, 1);
@@ -91,7 +55,7 @@ TEST(TissueNeighbors, active_muscles_press_harder_and_come_no_deeper_into_each_o
 }
 
 TEST(TissueNeighbors, a_jump_after_small_steps_is_met_as_one_from_rest) {
-  const Scene scene = crossing_tubes(0.001);
+  const Scene scene = held_tubes_across(0.001);
   const auto depth_after = [&](int small_steps) {
     const auto method = make_tissue_method(scene, {});
     for (int step = 1; step <= small_steps; ++step) method->advance(pressed(1e-5 * step), usual_time_step);
@@ -103,7 +67,7 @@ TEST(TissueNeighbors, a_jump_after_small_steps_is_met_as_one_from_rest) {
 }
 
 TEST(TissueNeighbors, what_overlaps_in_the_capture_pose_may_stay) {
-  Scene scene = crossing_tubes(-0.003);
+  Scene scene = held_tubes_across(-0.003);
   scene.method.settings["fiber_tension"] = 0.0;
   scene.method.settings["fiber_stiffness"] = 0.0;
   const auto method = make_tissue_method(scene, {});
@@ -113,7 +77,7 @@ TEST(TissueNeighbors, what_overlaps_in_the_capture_pose_may_stay) {
 }
 
 TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
-  const Scene scene = crossing_tubes(0.001);
+  const Scene scene = held_tubes_across(0.001);
   Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   shapes[1].row(0).array() -= 0.003;  // 2 mm into each other
@@ -129,7 +93,7 @@ TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
 }
 
 TEST(TissueNeighbors, what_moves_little_finds_all_planes_that_it_may_come_to) {
-  const Scene scene = crossing_tubes(0.001);
+  const Scene scene = held_tubes_across(0.001);
   Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   for (const Real deep : {-0.001, 0.0005, 0.004}) {
@@ -173,22 +137,22 @@ Real unbalanced_share(Scene scene, const std::vector<Real>& activations = {}, in
 }
 
 TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {
-  EXPECT_LT(unbalanced_share(crossing_tubes(0.001, 60)), 0.005);
+  EXPECT_LT(unbalanced_share(held_tubes_across(0.001, 60)), 0.005);
 }
 
 TEST(TissueNeighbors, so_they_do_where_one_is_active_and_the_other_is_not) {
   // Between a stiff one and a soft one planes come to rest more slowly: 0.14 after 12 steps.
-  EXPECT_LT(unbalanced_share(crossing_tubes(0.001, 60), {1, 0}, 20), 0.005);
+  EXPECT_LT(unbalanced_share(held_tubes_across(0.001, 60), {1, 0}, 20), 0.005);
 }
 
 TEST(TissueNeighbors, muscles_of_unlike_triangles_press_on_each_other_with_the_same_force) {
-  Scene scene = crossing_tubes(0.001);
+  Scene scene = held_tubes_across(0.001);
   scene.muscles[0] = tube_between("still", RigidTransform::Identity(), 0, 40);
   EXPECT_LT(unbalanced_share(scene), 0.005);  // 0.16 where each sums over its own vertices alone
 }
 
 TEST(TissueNeighbors, planes_far_from_the_origin_are_the_same) {
-  const Scene scene = crossing_tubes(0.001);
+  const Scene scene = held_tubes_across(0.001);
   Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   const std::vector<std::vector<ContactPlane>> near = contact_planes(neighbors, shapes);

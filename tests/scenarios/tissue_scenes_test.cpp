@@ -47,4 +47,9 @@ TEST(TissueScenes, biceps_and_semitendinosus_keep_every_gate_while_hip_and_knee_
   expect_gates_kept("leg", {"biceps_femoris_long_r", "semitendinosus_r"}, "[[0,0],[60,60]]", "4");
 }
 
+/// Where all three are pressed on the ischium single vertices look away from the muscle that they lie in.
+TEST(TissueScenes, hamstrings_stay_out_of_each_other_where_hip_and_knee_are_flexed_far) {
+  expect_gates_kept("leg", {"biceps_femoris_long_r", "semimembranosus_r", "semitendinosus_r"}, "[[0,0],[90,110]]", "5");
+}
+
 }  // namespace gracilis

@@ -1,7 +1,9 @@
 #include <gracilis/methods/tissue/neighbors.hpp>
 
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
+#include <gracilis/dynamics/contact/surface/penetration_repair.hpp>
 #include <gracilis/dynamics/contact/surface/vertex_face_search.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/rotations.hpp>
@@ -11,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace gracilis::tissue {
 
@@ -28,24 +32,32 @@ struct PlacedSurfaces {
   std::vector<Eigen::Matrix3Xf> normals;
 };
 
-PlacedSurfaces place(Neighbors& neighbors, const std::vector<Points>& shapes) {
+/// The muscles listed; of the others nothing.
+PlacedSurfaces place(Neighbors& neighbors, const std::vector<Points>& shapes, const std::vector<std::size_t>& muscles) {
   PlacedSurfaces placed;
   placed.origin = shapes.front().rowwise().mean();
   placed.particles.resize(shapes.size());
   placed.normals.resize(shapes.size());
-  parallel_for_each(shapes.size(), [&](std::size_t m) {
+  parallel_for_each(muscles.size(), [&](std::size_t i) {
+    const std::size_t m = muscles[i];
     const Points seen = shapes[m].colwise() - placed.origin;
-    placed.particles[m] = make_particles(seen, Eigen::VectorXd::Ones(seen.cols()));
+    placed.particles[m] = make_particles(seen, (neighbors.areas[m].array() > 0).cast<Real>());
     placed.normals[m].resize(3, seen.cols());
-    particle_normals(neighbors.surfaces[m], placed.particles[m], placed.normals[m]);
-    refit(neighbors.surfaces[m], placed.particles[m], neighbors.trees[m]);
+    particle_normals(neighbors.world.surfaces[m], placed.particles[m], placed.normals[m]);
+    refit(neighbors.world.surfaces[m], placed.particles[m], neighbors.trees[m]);
   });
   return placed;
 }
 
-/// A vertex and how it stands to another surface.
+PlacedSurfaces place(Neighbors& neighbors, const std::vector<Points>& shapes) {
+  std::vector<std::size_t> all(shapes.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return place(neighbors, shapes, all);
+}
+
+/// A vertex and how it stands to another surface, to the face of that which is nearest.
 struct SeenVertex {
-  Index vertex = 0;
+  Index vertex = 0, face = 0;
   PointGap gap;
 };
 
@@ -53,14 +65,15 @@ std::vector<SeenVertex> see_within(const Neighbors& neighbors, const PlacedSurfa
                                    Real reach) {
   const auto probe = static_cast<std::size_t>(from), target = static_cast<std::size_t>(to);
   std::vector<VertexFaceCandidate> touches;
-  find_near({neighbors.surfaces[probe], placed.particles[probe], neighbors.trees[probe]}, Eigen::Vector3f::Zero(),
-            {neighbors.surfaces[target], placed.particles[target], neighbors.trees[target]}, static_cast<float>(reach),
-            touches);
+  find_near({neighbors.world.surfaces[probe], placed.particles[probe], neighbors.trees[probe]}, Eigen::Vector3f::Zero(),
+            {neighbors.world.surfaces[target], placed.particles[target], neighbors.trees[target]},
+            static_cast<float>(reach), touches);
   std::vector<SeenVertex> seen;
   for (const VertexFaceCandidate& touch : touches)
-    seen.push_back({touch.particle, point_gap(placed.particles[probe].position(touch.particle),
-                                              neighbors.surfaces[target], NearestFace{touch.face, touch.barycentric},
-                                              placed.particles[target], placed.normals[target])});
+    seen.push_back(
+        {touch.particle, touch.face,
+         point_gap(placed.particles[probe].position(touch.particle), neighbors.world.surfaces[target],
+                   NearestFace{touch.face, touch.barycentric}, placed.particles[target], placed.normals[target])});
   return seen;
 }
 
@@ -86,7 +99,7 @@ std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& pl
   const Real reach = std::min(neighbor_reach, widest_gap + 2 * look.largest_move);
   std::vector<SeenVertex> seen = see_within(neighbors, placed, from, to, reach);
   const auto probe = static_cast<std::size_t>(from);
-  if (reach < neighbor_reach && may_hide(neighbors.surfaces[probe], placed.particles[probe], seen))
+  if (reach < neighbor_reach && may_hide(neighbors.world.surfaces[probe], placed.particles[probe], seen))
     seen = see_within(neighbors, placed, from, to, neighbor_reach);
   return seen;
 }
@@ -94,7 +107,7 @@ std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& pl
 /// Where folds of a surface come near each other from outside. What lies back to back has tissue in between.
 std::vector<SeenVertex> see_itself(const Neighbors& neighbors, const PlacedSurfaces& placed, const SelfMeeting& self) {
   const auto m = static_cast<std::size_t>(self.muscle);
-  const ContactSurface& surface = neighbors.surfaces[m];
+  const ContactSurface& surface = neighbors.world.surfaces[m];
   const SelfRule rule = {surface,   self.rest_points,    self.rest_normals,
                          self.rest, placed.particles[m], self.neighborhood};
   std::vector<VertexFaceCandidate> touches;
@@ -102,7 +115,7 @@ std::vector<SeenVertex> see_itself(const Neighbors& neighbors, const PlacedSurfa
   std::vector<SeenVertex> seen;
   for (const VertexFaceCandidate& touch : touches)
     if (touch.side > 0)
-      seen.push_back({touch.particle,
+      seen.push_back({touch.particle, touch.face,
                       point_gap(placed.particles[m].position(touch.particle), surface,
                                 NearestFace{touch.face, touch.barycentric}, placed.particles[m], placed.normals[m])});
   return seen;
@@ -130,13 +143,18 @@ Real widest(const std::vector<Real>& gaps) {
   return most;
 }
 
+Eigen::Matrix3Xf places_of(const Particles& particles) {
+  Eigen::Matrix3Xf places(3, particles.count());
+  for (Index v = 0; v < particles.count(); ++v) places.col(v) = particles.position(v);
+  return places;
+}
+
 SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSurfaces& placed) {
   const auto m = static_cast<std::size_t>(muscle);
   SelfMeeting self;
   self.muscle = muscle;
   self.rest = placed.particles[m];
-  self.rest_points.resize(3, self.rest.count());
-  for (Index v = 0; v < self.rest.count(); ++v) self.rest_points.col(v) = self.rest.position(v);
+  self.rest_points = places_of(self.rest);
   self.rest_normals = placed.normals[m];
   const std::vector<MeshEdge> edges = build_topology(surface.faces, surface.vertex_count()).edges;
   self.neighborhood = static_cast<float>(neighborhood_edges * mean_edge_length(edges, surface.vertices));
@@ -155,6 +173,7 @@ struct FoundPlanes {
   std::vector<ContactPlane> planes;
   std::vector<Vec3> places;  ///< m, of their vertices
   Vec3 force = Vec3::Zero();
+  Real deepest = 0;  ///< m, of the free vertices that lie in the other
 };
 
 /// Each of the two surfaces goes half of the way, or may come as near.
@@ -167,7 +186,9 @@ FoundPlanes planes_of(const Neighbors& neighbors, const PlacedSurfaces& placed, 
     if (normal.isZero(0)) continue;
     const Vec3 p = placed.origin + placed.particles[from].position(each.vertex).cast<Real>();
     const Real gap = meeting.gaps[static_cast<std::size_t>(each.vertex)];
-    const Real lacking = gap - static_cast<Real>(each.gap.distance);
+    const auto distance = static_cast<Real>(each.gap.distance);
+    const Real lacking = gap - distance;
+    if (neighbors.areas[from][each.vertex] > 0) found.deepest = std::max(found.deepest, -distance);
     const bool faces_it = placed.normals[from].col(each.vertex).dot(each.gap.normal) < 0;
     found.planes.push_back({each.vertex, meeting.to, normal, normal.dot(p) + lacking / 2,
                             faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
@@ -199,6 +220,15 @@ void even_out(FoundPlanes& first, FoundPlanes& second) {
   press_by(-mean, second);
 }
 
+/// The vertices that lie in another surface, no deeper than `reach` (m).
+std::vector<VertexFaceCandidate> inside(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to,
+                                        Real reach) {
+  std::vector<VertexFaceCandidate> found;
+  for (const SeenVertex& each : see_within(neighbors, placed, from, to, reach))
+    if (each.gap.distance < 0) found.push_back({each.vertex, each.face, 1, each.gap.distance, each.gap.barycentric});
+  return found;
+}
+
 void append(const std::vector<ContactPlane>& found, std::vector<ContactPlane>& planes) {
   planes.insert(planes.end(), found.begin(), found.end());
 }
@@ -211,8 +241,8 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   for (const Muscle& muscle : scene.muscles) {
     shapes.push_back(muscle.surface.vertices);
     neighbors.areas.push_back(free_areas(muscle));
-    neighbors.surfaces.push_back(build_contact_surface(muscle.surface.faces, muscle.surface.vertex_count()));
-    neighbors.trees.push_back(build_patch_tree(neighbors.surfaces.back(), shapes.back().cast<float>()));
+    neighbors.world.surfaces.push_back(build_contact_surface(muscle.surface.faces, muscle.surface.vertex_count()));
+    neighbors.trees.push_back(build_patch_tree(neighbors.world.surfaces.back(), shapes.back().cast<float>()));
   }
   for (const MeetingSettings& each : settings) neighbors.stiffness.push_back(each.stiffness);
   const PlacedSurfaces placed = place(neighbors, shapes);
@@ -221,13 +251,22 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
     return gaps_at_rest(see_within(neighbors, placed, muscle, other, neighbor_reach),
                         static_cast<Index>(shapes[m].cols()), settings[m].gap);
   };
+  const auto is_free = [&](Index m, Index v) { return neighbors.areas[static_cast<std::size_t>(m)][v] > 0; };
+  const std::vector<RestOverlap> overlaps = rest_overlaps(scene);
+  auto overlap = overlaps.begin();
   const auto count = static_cast<Index>(shapes.size());
-  for (Index a = 0; a < count; ++a)
+  for (Index a = 0; a < count; ++a) {
+    neighbors.world.rest.push_back(places_of(placed.particles[static_cast<std::size_t>(a)]));
     for (Index b = a + 1; b < count; ++b) {
       neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
       NeighborPair& pair = neighbors.pairs.back();
       pair.widest = std::max(widest(pair.first_gaps), widest(pair.second_gaps));
+      SurfacePair& of_seen = neighbors.world.pairs.emplace_back();
+      of_seen.first = a, of_seen.second = b;
+      if (overlap == overlaps.end() || overlap->first != a || overlap->second != b) continue;
+      of_seen.deepest = static_cast<float>(deepest_free(*overlap++, is_free));
     }
+  }
   for (std::size_t m = 0; m < settings.size(); ++m) {
     if (!settings[m].self) continue;
     SelfMeeting self = meeting_of(scene.muscles[m].surface, static_cast<Index>(m), placed);
@@ -242,13 +281,14 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
   std::vector<std::vector<ContactPlane>> planes(shapes.size());
   if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
-  for (const NeighborPair& pair : neighbors.pairs) {
+  for (NeighborPair& pair : neighbors.pairs) {
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     FoundPlanes first = planes_of(neighbors, placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look),
                                   {pair.first, pair.second, pair.first_gaps, neighbors.stiffness[a]});
     FoundPlanes second =
         planes_of(neighbors, placed, see(neighbors, placed, pair.second, pair.first, pair.widest, look),
                   {pair.second, pair.first, pair.second_gaps, neighbors.stiffness[b]});
+    pair.deepest_seen = std::max(first.deepest, second.deepest);
     even_out(first, second);
     append(first.planes, planes[a]);
     append(second.planes, planes[b]);
@@ -263,6 +303,37 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
     std::stable_sort(each.begin(), each.end(),
                      [](const ContactPlane& a, const ContactPlane& b) { return a.point < b.point; });
   return planes;
+}
+
+std::vector<Points> ways_apart(Neighbors& neighbors, const std::vector<Points>& shapes, Real moved) {
+  std::vector<Points> ways(shapes.size(), Points(3, 0));
+  std::vector<std::size_t> pairs, muscles;
+  for (std::size_t i = 0; i < neighbors.pairs.size(); ++i) {
+    const NeighborPair& pair = neighbors.pairs[i];
+    if (!(pair.deepest_seen > static_cast<Real>(neighbors.world.pairs[i].deepest))) continue;
+    pairs.push_back(i);
+    for (const Index m : {pair.first, pair.second}) muscles.push_back(static_cast<std::size_t>(m));
+  }
+  if (pairs.empty()) return ways;
+  std::sort(muscles.begin(), muscles.end());
+  muscles.erase(std::unique(muscles.begin(), muscles.end()), muscles.end());
+  PlacedSurfaces placed = place(neighbors, shapes, muscles);
+  ContactWorldState state;
+  state.candidates.resize(neighbors.pairs.size());
+  parallel_for_each(pairs.size(), [&](std::size_t i) {
+    const NeighborPair& pair = neighbors.pairs[pairs[i]];
+    const Real reach = std::min(neighbor_reach, pair.deepest_seen + moved);
+    state.candidates[pairs[i]].near_second = inside(neighbors, placed, pair.first, pair.second, reach);
+    state.candidates[pairs[i]].near_first = inside(neighbors, placed, pair.second, pair.first, reach);
+  });
+  state.normals = std::move(placed.normals);
+  const std::vector<Particles> before = placed.particles;
+  std::vector<Particles*> particles;
+  for (Particles& each : placed.particles) particles.push_back(&each);
+  const std::vector<char> is_moved = repair_penetrations(neighbors.world, state, particles);
+  for (std::size_t m = 0; m < is_moved.size(); ++m)
+    if (is_moved[m]) ways[m] = (places_of(placed.particles[m]) - places_of(before[m])).cast<Real>();
+  return ways;
 }
 
 }  // namespace gracilis::tissue

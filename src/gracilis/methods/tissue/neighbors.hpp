@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/mesh/patch_tree.hpp>
+#include <gracilis/dynamics/contact/surface/contact_world.hpp>
 #include <gracilis/methods/tissue/preparation.hpp>
 
 #include <vector>
@@ -24,6 +24,7 @@ struct NeighborPair {
   Index first = 0, second = 0;
   std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
   Real widest = 0;                            ///< m, of the gaps, whether apart or deep
+  Real deepest_seen = 0;  ///< m, how deep free vertices lay in the other at most when they last looked, or less
 };
 
 /// How parts of one surface that fold onto each other keep apart.
@@ -37,9 +38,9 @@ struct SelfMeeting {
 };
 
 /// The surfaces of all muscles for each other; constant but for the trees, which are fitted anew in each
-/// search, and planes of muscles that meet themselves.
+/// search, how deep pairs were seen in each other, and planes of muscles that meet themselves.
 struct Neighbors {
-  std::vector<ContactSurface> surfaces;
+  ContactWorld world;  ///< surfaces, at rest, and how deep each of `pairs` lies in each other there
   std::vector<PatchTree> trees;
   std::vector<Eigen::VectorXd> areas;  ///< m² at rest, that each vertex stands for; 0 of attached ones
   std::vector<Real> stiffness;         ///< N/m³, per muscle
@@ -77,5 +78,10 @@ struct Look {
 /// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes,
                                                       const Look& look = {});
+
+/// What takes vertices that lie deep in another muscle out of it, with what lies around them (penetration_repair.hpp):
+/// per muscle 3 × vertices, m, or nothing where it stays. Only of muscles that the last contact_planes saw deeper in
+/// each other than at rest, since when nothing has come nearer by more than `moved` (m).
+std::vector<Points> ways_apart(Neighbors& neighbors, const std::vector<Points>& shapes, Real moved);
 
 }  // namespace gracilis::tissue

@@ -15,6 +15,9 @@ Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
 /// The same without a look at bones. `tissue_surface`: surface_at these nodes.
 Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface);
 
+/// Moves the free part of the surface (x: 3 × vertices, m) out evenly, so that it encloses so much, m³.
+void meet_volume(const PreparedTissue& muscle, Real asked, Points& x);
+
 /// What the surface lacks of the tissue beneath each large triangle, m³; of `corners`, which are where its vertices
 /// are. Less than zero where it holds more.
 std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners);

@@ -5,6 +5,7 @@
 #include <gracilis/methods/tissue/carry.hpp>
 #include <gracilis/methods/tissue/ends_on_muscles.hpp>
 #include <gracilis/methods/tissue/forces.hpp>
+#include <gracilis/methods/tissue/seen_apart.hpp>
 #include <gracilis/methods/tissue/seen_surface.hpp>
 #include <gracilis/methods/tissue/settle_muscles.hpp>
 #include <gracilis/scene/setting_values.hpp>
@@ -63,8 +64,10 @@ class TissueMethod final : public DeformationMethod {
     }
     for_each_timed(moving, [&](std::size_t m) {
       moving[m].seen = seen_surface(tissues_.muscles[m], moving[m].equilibrium.around, distances_, moving[m].nodes);
-      require_finite(tissues_.muscles[m], moving[m].seen.allFinite());
     });
+    keep_seen_apart(tissues_, distances_, expected_move_, moving);
+    for (std::size_t m = 0; m < tissues_.muscles.size(); ++m)
+      require_finite(tissues_.muscles[m], moving[m].seen.allFinite());
     StepReport report;
     for (std::size_t m = 0; m < tissues_.muscles.size(); ++m) report.muscles.push_back(reported(m, moving[m]));
     for (std::size_t m = 0; m < tissues_.muscles.size(); ++m) {
