@@ -3,6 +3,8 @@
 #include <gracilis/dynamics/leverage.hpp>
 #include <gracilis/geometry/rotations.hpp>
 
+#include <algorithm>
+
 namespace gracilis {
 
 namespace {
