@@ -39,7 +39,7 @@ Real farthest(const Points& from, const Points& to) { return (to - from).colwise
 /// Largest deviation of the vectorised result from the reference, as a share of the largest motion.
 Real deviation(const Points& before, const Particles& after, const Points& expected) {
   EXPECT_GT(farthest(before, expected), 1e-5) << "nothing moved";
-  return farthest(positions_of(after), expected) / farthest(before, expected);
+  return farthest(real_positions_of(after), expected) / farthest(before, expected);
 }
 
 Real lambda_deviation(const AlignedVector<float>& lambda, const std::vector<Real>& expected) {
@@ -65,7 +65,7 @@ TEST(DistanceProjection, agrees_with_plain_double_precision) {
     ShakenSystem scenario = shaken(11);
     SurfaceState& state = scenario.state;
     for (float& target : state.target_length) target *= 0.95f;
-    const Points before = positions_of(state.particles);
+    const Points before = real_positions_of(state.particles);
     reference::State expected = reference::state_of(state.particles, state.start, state.distance_lambda);
     reference::project_distances(scenario.system.distances, state.target_length, expected, parameters);
     for (const ColorRange& color : scenario.system.distances.order.colors)
@@ -80,7 +80,7 @@ TEST(DihedralProjection, agrees_with_plain_double_precision) {
   for (const ProjectionParameters& parameters : parameter_sets()) {
     ShakenSystem scenario = shaken(12);
     SurfaceState& state = scenario.state;
-    const Points before = positions_of(state.particles);
+    const Points before = real_positions_of(state.particles);
     reference::State expected = reference::state_of(state.particles, state.start, state.dihedral_lambda);
     reference::project_dihedrals(scenario.system.dihedrals, expected, parameters);
     for (const ColorRange& color : scenario.system.dihedrals.order.colors)
@@ -117,26 +117,26 @@ TEST(DihedralProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
   ProjectionParameters parameters;
   parameters.dihedral_limit = 0.05f;
   ShakenSystem scenario = one_dihedral(2.5, 0);
-  const Points before = positions_of(scenario.state.particles);
+  const Points before = real_positions_of(scenario.state.particles);
   EXPECT_EQ(project_all(scenario, parameters).limited, 1);
-  EXPECT_NEAR(farthest(before, positions_of(scenario.state.particles)), 0.05 * 0.004, 1e-8);
+  EXPECT_NEAR(farthest(before, real_positions_of(scenario.state.particles)), 0.05 * 0.004, 1e-8);
 
   ShakenSystem free = one_dihedral(2.5, 0);
   parameters.dihedral_limit = 0;
   EXPECT_EQ(project_all(free, parameters).limited, 0);
-  EXPECT_GT(farthest(before, positions_of(free.state.particles)), 0.001);
+  EXPECT_GT(farthest(before, real_positions_of(free.state.particles)), 0.001);
 }
 
 TEST(DihedralProjection, gives_back_the_multiplier_of_a_motion_held_back) {
   ProjectionParameters parameters;
   ShakenSystem free = one_dihedral(2.5, 0), held = one_dihedral(2.5, 0);
-  const Points before = positions_of(free.state.particles);
+  const Points before = real_positions_of(free.state.particles);
   project_all(free, parameters);
   parameters.dihedral_limit = 0.05f;
   project_all(held, parameters);
   const auto slot = static_cast<std::size_t>(slots_of(free.system.dihedrals)[0]);
-  const Real motion_share =
-      farthest(before, positions_of(held.state.particles)) / farthest(before, positions_of(free.state.particles));
+  const Real motion_share = farthest(before, real_positions_of(held.state.particles)) /
+                            farthest(before, real_positions_of(free.state.particles));
   EXPECT_NEAR(held.state.dihedral_lambda[slot] / free.state.dihedral_lambda[slot], motion_share, 1e-5);
 }
 
@@ -144,9 +144,9 @@ TEST(DihedralProjection, near_half_a_turn_takes_the_short_way_back) {
   ShakenSystem scenario = one_dihedral(-pi + 0.01, 0);
   scenario.system.dihedrals.rest_angle[static_cast<std::size_t>(slots_of(scenario.system.dihedrals)[0])] =
       static_cast<float>(pi - 0.01);
-  const Points before = positions_of(scenario.state.particles);
+  const Points before = real_positions_of(scenario.state.particles);
   project_all(scenario, {});
-  const Points after = positions_of(scenario.state.particles);
+  const Points after = real_positions_of(scenario.state.particles);
   EXPECT_LT(farthest(before, after), 0.003 * 0.03);
   EXPECT_GT(farthest(before, after), 0.003 * 0.002);
 }

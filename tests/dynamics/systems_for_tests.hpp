@@ -69,11 +69,7 @@ inline void shake(Particles& particles, float amount, unsigned seed) {
   }
 }
 
-inline Points positions_of(const Particles& particles) {
-  Points points(3, particles.count());
-  for (Index i = 0; i < particles.count(); ++i) points.col(i) = particles.position(i).cast<Real>();
-  return points;
-}
+inline Points real_positions_of(const Particles& particles) { return positions_of(particles).cast<Real>(); }
 
 /// The exact distance to a ball about the origin, at so many nodes a side, one every millimetre.
 inline DistanceField field_of_ball(Real radius, Index nodes) {

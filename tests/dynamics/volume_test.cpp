@@ -13,7 +13,7 @@ const TriangleMesh& fine_ball() {
   return mesh;
 }
 
-Real volume_of(const Particles& particles) { return enclosed_volume(positions_of(particles), fine_ball().faces); }
+Real volume_of(const Particles& particles) { return enclosed_volume(real_positions_of(particles), fine_ball().faces); }
 
 }  // namespace
 
@@ -51,7 +51,7 @@ TEST(VolumeProjection, gradient_is_that_of_the_volume) {
   const SurfaceSystem system = system_of(fine_ball());
   SurfaceState state = make_state(system);
   shake(state.particles, 0.0005f, 4);
-  Points x = positions_of(state.particles);
+  Points x = real_positions_of(state.particles);
   project_volume(system.volume, 1.0 / 60, 1, state.volume_lambda, state.volume_gradients, state.particles);
   const Real scale = 0.001 * 0.001;  // an edge's length squared
   for (Index i = 0; i < x.cols(); i += 97)

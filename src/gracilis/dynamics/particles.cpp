@@ -18,6 +18,12 @@ Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse
   return particles;
 }
 
+Eigen::Matrix3Xf positions_of(const Particles& particles) {
+  Eigen::Matrix3Xf positions(3, particles.count());
+  for (Index i = 0; i < particles.count(); ++i) positions.col(i) = particles.position(i);
+  return positions;
+}
+
 float largest_motion(const Particles& from, const Particles& to) {
   float largest2 = 0;
   for (Index i = 0; i < to.count(); ++i)

@@ -26,6 +26,9 @@ struct Particles {
 /// Particles at `positions` (m, relative to the chosen origin) with `inverse_masses` (1/kg).
 Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses);
 
+/// Where all but the idle ones are, m from the origin.
+Eigen::Matrix3Xf positions_of(const Particles& particles);
+
 /// Length of the longest way that a particle went from one state to another of as many particles, m.
 float largest_motion(const Particles& from, const Particles& to);
 

@@ -169,8 +169,7 @@ bool project_edges(const RestProximity& place, Particles& particles) {
 std::vector<RestProximity> find_rest_proximities(const Points& vertices, const Eigen::Matrix3Xi& faces, Real reach,
                                                  const Particles& rest) {
   const ContactSurface surface = build_contact_surface(faces, rest.count());
-  Eigen::Matrix3Xf points(3, rest.count());
-  for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
+  const Eigen::Matrix3Xf points = positions_of(rest);
   PatchTree tree = build_patch_tree(surface, points);
   refit(surface, rest, tree);
   std::vector<RestProximity> places = collect_in_order<RestProximity>(

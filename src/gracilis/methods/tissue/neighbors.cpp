@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/overlap/rest_overlap.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 #include <gracilis/dynamics/contact/surface/penetration_repair.hpp>
 #include <gracilis/dynamics/contact/surface/vertex_face_search.hpp>
@@ -143,18 +144,12 @@ Real widest(const std::vector<Real>& gaps) {
   return most;
 }
 
-Eigen::Matrix3Xf places_of(const Particles& particles) {
-  Eigen::Matrix3Xf places(3, particles.count());
-  for (Index v = 0; v < particles.count(); ++v) places.col(v) = particles.position(v);
-  return places;
-}
-
 SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSurfaces& placed) {
   const auto m = static_cast<std::size_t>(muscle);
   SelfMeeting self;
   self.muscle = muscle;
   self.rest = placed.particles[m];
-  self.rest_points = places_of(self.rest);
+  self.rest_points = positions_of(self.rest);
   self.rest_normals = placed.normals[m];
   const std::vector<MeshEdge> edges = build_topology(surface.faces, surface.vertex_count()).edges;
   self.neighborhood = static_cast<float>(neighborhood_edges * mean_edge_length(edges, surface.vertices));
@@ -256,7 +251,7 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   auto overlap = overlaps.begin();
   const auto count = static_cast<Index>(shapes.size());
   for (Index a = 0; a < count; ++a) {
-    neighbors.world.rest.push_back(places_of(placed.particles[static_cast<std::size_t>(a)]));
+    neighbors.world.rest.push_back(positions_of(placed.particles[static_cast<std::size_t>(a)]));
     for (Index b = a + 1; b < count; ++b) {
       neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
       NeighborPair& pair = neighbors.pairs.back();
@@ -315,8 +310,7 @@ std::vector<Points> ways_apart(Neighbors& neighbors, const std::vector<Points>& 
     for (const Index m : {pair.first, pair.second}) muscles.push_back(static_cast<std::size_t>(m));
   }
   if (pairs.empty()) return ways;
-  std::sort(muscles.begin(), muscles.end());
-  muscles.erase(std::unique(muscles.begin(), muscles.end()), muscles.end());
+  sort_unique(muscles);
   PlacedSurfaces placed = place(neighbors, shapes, muscles);
   ContactWorldState state;
   state.candidates.resize(neighbors.pairs.size());
@@ -332,7 +326,7 @@ std::vector<Points> ways_apart(Neighbors& neighbors, const std::vector<Points>& 
   for (Particles& each : placed.particles) particles.push_back(&each);
   const std::vector<char> is_moved = repair_penetrations(neighbors.world, state, particles);
   for (std::size_t m = 0; m < is_moved.size(); ++m)
-    if (is_moved[m]) ways[m] = (places_of(placed.particles[m]) - places_of(before[m])).cast<Real>();
+    if (is_moved[m]) ways[m] = (positions_of(placed.particles[m]) - positions_of(before[m])).cast<Real>();
   return ways;
 }
 

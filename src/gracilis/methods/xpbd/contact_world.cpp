@@ -29,10 +29,9 @@ float mean_edge(const SurfaceSystem& system) {
 void add_surface(const PreparedMuscle& muscle, ContactWorld& world) {
   const Particles& rest = muscle.system.rest;
   world.surfaces.push_back(build_contact_surface(muscle.faces, rest.count()));
-  Eigen::Matrix3Xf points(3, rest.count()), normals;
-  for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
+  Eigen::Matrix3Xf normals;
   particle_normals(world.surfaces.back(), rest, normals);
-  world.rest.push_back(std::move(points));
+  world.rest.push_back(positions_of(rest));
   world.rest_normals.push_back(std::move(normals));
   world.neighborhood.push_back(neighborhood_edges * mean_edge(muscle.system));
 }

@@ -37,8 +37,7 @@ void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const 
   skin_free(muscle, before, pose, active, state);
   if (!muscle.predicted) return;
   move_attached(muscle, pose, state.particles);
-  Points points(3, state.particles.count());
-  for (Index p = 0; p < state.particles.count(); ++p) points.col(p) = state.particles.position(p).cast<Real>();
+  Points points = positions_of(state.particles).cast<Real>();
   const Vec3 origin = muscle.origin;
   muscle.predicted->bring_nearer(
       [&](Points& places) {
