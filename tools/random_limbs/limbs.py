@@ -263,4 +263,37 @@ def shoulder(limb):
     limb.motion = (["upward_rotation", "elevation", "flexion", "rotation"], [[0] * 4, pose], 4)
 
 
-KINDS = {make.__name__: make for make in (hinge, ball, chain, forearm, spine, gluteal, shoulder)}
+def ankle(limb):
+    """Two bones of a shank with malleoli over a talus and a foot, and tendons that bend around them."""
+    rng = limb.rng
+    length, wide, foot = rng.uniform(0.28, 0.38), rng.uniform(0.018, 0.022), rng.uniform(0.9, 1.15)
+    tibia = limb.add_bone("tibia", "shank", shaft(np.array([0, 0, length]), np.array([0, 0, 0.02]), 0.011, rng, 2, 1.5))
+    limb.add_bone("medial_malleolus", "shank", shaft(np.array([0, wide - 0.003, 0.03]), np.array([-0.002, wide, -0.012]), 0.006,
+                                                     rng, 1.2, 1.2, 0))
+    fibula = limb.add_bone("fibula", "shank", shaft(np.array([-0.012, -wide - 0.006, 0.93 * length]),
+                                                    np.array([-0.006, -wide - 0.004, -0.018]), 0.006, rng, 1.5, 1.4))
+    limb.add_bone("talus", "talus", shaft(np.array([-0.018, 0, -0.012]), foot * np.array([0.03, 0.004, -0.022]), 0.012, rng, 1.1,
+                                          1, 0))
+    heel = limb.add_bone("calcaneus", "foot", shaft(foot * np.array([0.012, -0.004, -0.037]), foot * np.array([-0.052, 0, -0.048]),
+                                                    0.012, rng, 1, 1.3, 0))
+    sole = limb.add_bone("metatarsals", "foot", plate(foot * np.array([0.035, 0, -0.034]), foot * np.array([0.14, 0, -0.062]),
+                                                      [0.018, 0.03, 0.036], 0.009, Z), flat=True)
+    inner, outer = sole.at(0.25, Y + 0.4 * Z), sole.at(0.3, -Y + 0.1 * Z)
+    limb.add_strand("tibialis_posterior", ("shank", tibia.at(rng.uniform(0.25, 0.5), -X + 0.2 * Y)),
+                    ("foot", sole.at(0.08, Y - 0.5 * Z)), np.array([-0.05, 0.03, 0]), rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
+    limb.add_strand("tibialis_anterior", ("shank", tibia.at(rng.uniform(0.15, 0.4), X - 0.7 * Y)), ("foot", inner), 0.03 * X,
+                    rng.uniform(0.009, 0.013), 0.0035, (0.05, 0.4))
+    limb.add_strand("extensor", ("shank", fibula.at(rng.uniform(0.15, 0.5), X + 0.3 * Y)), ("foot", sole.at(0.8, Z)),
+                    np.array([0.04, -0.01, 0]), rng.uniform(0.007, 0.010), 0.003, (0.05, 0.5))
+    limb.add_strand("peroneus", ("shank", fibula.at(rng.uniform(0.15, 0.5), -Y)), ("foot", outer), np.array([-0.05, -0.04, 0]),
+                    rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
+    limb.add_strand("soleus", ("shank", tibia.at(0.2, -X)), ("foot", heel.at(0.9, -X - 0.3 * Z)), -0.04 * X, rng.uniform(0.014, 0.020),
+                    0.005, (0.05, 0.3))
+    limb.add_strand("gastrocnemius", ("shank", tibia.at(0.03, -X)), ("foot", heel.at(0.97, -X)), -0.07 * X,
+                    rng.uniform(0.013, 0.018), 0.005, (0.05, 0.45))
+    limb.add_joint("ankle", "shank", "talus", 0 * X, [("dorsiflexion", -Y)])
+    limb.add_joint("subtalar", "talus", "foot", foot * np.array([0.005, 0, -0.026]), [("inversion", unit(0.8 * X + 0.5 * Z))])
+    limb.motion = (["dorsiflexion", "inversion"], [[0, 0], [20, 0], [-45, int(rng.integers(-20, 25))]], 4)
+
+
+KINDS = {make.__name__: make for make in (hinge, ball, chain, forearm, spine, gluteal, shoulder, ankle)}
