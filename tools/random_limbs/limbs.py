@@ -281,10 +281,10 @@ def ankle(limb):
     inner, outer = sole.at(0.25, Y + 0.4 * Z), sole.at(0.3, -Y + 0.1 * Z)
     limb.add_strand("tibialis_posterior", ("shank", tibia.at(rng.uniform(0.25, 0.5), -X + 0.2 * Y)),
                     ("foot", sole.at(0.08, Y - 0.5 * Z)), np.array([-0.05, 0.03, 0]), rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
-    limb.add_strand("tibialis_anterior", ("shank", tibia.at(rng.uniform(0.15, 0.4), X - 0.7 * Y)), ("foot", inner), 0.03 * X,
+    limb.add_strand("tibialis_anterior", ("shank", tibia.at(rng.uniform(0.15, 0.4), X - 0.7 * Y)), ("foot", inner), -0.05 * X,
                     rng.uniform(0.009, 0.013), 0.0035, (0.05, 0.4))
     limb.add_strand("extensor", ("shank", fibula.at(rng.uniform(0.15, 0.5), X + 0.3 * Y)), ("foot", sole.at(0.8, Z)),
-                    np.array([0.04, -0.01, 0]), rng.uniform(0.007, 0.010), 0.003, (0.05, 0.5))
+                    -0.10 * X, rng.uniform(0.007, 0.010), 0.003, (0.05, 0.5))
     limb.add_strand("peroneus", ("shank", fibula.at(rng.uniform(0.15, 0.5), -Y)), ("foot", outer), np.array([-0.05, -0.04, 0]),
                     rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
     limb.add_strand("soleus", ("shank", tibia.at(0.2, -X)), ("foot", heel.at(0.9, -X - 0.3 * Z)), -0.04 * X, rng.uniform(0.014, 0.020),
