@@ -47,11 +47,12 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
     bellies_.emplace(scene, bones_, ways_->taut());
   }
   for (const Bone& bone : scene.bones) bone_boxes_.push_back(box_of(bone.surface.vertices));
-  for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
+  muscles_.resize(scene.muscles.size());
   last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
+  parallel_for_each(muscles_.size(), [&](std::size_t m) { muscles_[m] = rest_of(scene.muscles[m], last_[m]); });
 }
 
-Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
+Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle, std::vector<LastSeen>& last) const {
   const Points& x = muscle.surface.vertices;
   MuscleRest rest;
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
@@ -75,15 +76,15 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   rest.vertex_depth.resize(vertices.cols(), static_cast<Index>(bones_.size()));
   rest.midpoint_depth.resize(middles.cols(), static_cast<Index>(bones_.size()));
   for (std::size_t b = 0; b < bones_.size(); ++b) {
-    LastSeen nothing;
-    rest.vertex_depth.col(static_cast<Index>(b)) = depths_in(b, vertices, nothing);
-    rest.midpoint_depth.col(static_cast<Index>(b)) = depths_in(b, middles, nothing);
+    rest.vertex_depth.col(static_cast<Index>(b)) = depths_in(b, vertices, last[2 * b]);
+    rest.midpoint_depth.col(static_cast<Index>(b)) = depths_in(b, middles, last[2 * b + 1]);
   }
   return rest;
 }
 
 /// Depth of each point (bone's frame) in a bone, m, 0 outside. The distance to a surface changes by no more than the
-/// point moves, so a point is asked for again only once it has used up its last clearance.
+/// point moves, so a point is asked for again only once it has used up its last clearance; the bone's box is asked
+/// first.
 Eigen::VectorXd Measurer::depths_in(std::size_t bone, const Points& points, LastSeen& last) const {
   if (last.points.cols() != points.cols()) {
     last.points = points;
@@ -92,7 +93,8 @@ Eigen::VectorXd Measurer::depths_in(std::size_t bone, const Points& points, Last
   Eigen::VectorXd depths = Eigen::VectorXd::Zero(points.cols());
   for (Index i = 0; i < points.cols(); ++i) {
     if ((points.col(i) - last.points.col(i)).norm() < last.clearances[i]) continue;
-    const Real distance = bones_[bone].query(points.col(i)).distance;
+    const Real outside = bone_boxes_[bone].exteriorDistance(points.col(i));
+    const Real distance = outside > 0 ? outside : bones_[bone].query(points.col(i)).distance;
     last.points.col(i) = points.col(i);
     last.clearances[i] = std::max(distance, Real{0});
     depths[i] = std::max(-distance, Real{0});

@@ -79,7 +79,7 @@ class Measurer {
     Eigen::VectorXd clearances;  ///< m
   };
 
-  MuscleRest rest_of(const Muscle& muscle) const;
+  MuscleRest rest_of(const Muscle& muscle, std::vector<LastSeen>& last) const;
   Eigen::VectorXd depths_in(std::size_t bone, const Points& points, LastSeen& last) const;
   void measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose, std::vector<LastSeen>& last,
                       MuscleMeasures& measures) const;
