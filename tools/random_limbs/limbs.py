@@ -281,10 +281,10 @@ def ankle(limb):
     inner, outer = sole.at(0.25, Y + 0.4 * Z), sole.at(0.3, -Y + 0.1 * Z)
     limb.add_strand("tibialis_posterior", ("shank", tibia.at(rng.uniform(0.25, 0.5), -X + 0.2 * Y)),
                     ("foot", sole.at(0.08, Y - 0.5 * Z)), np.array([-0.05, 0.03, 0]), rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
-    limb.add_strand("tibialis_anterior", ("shank", tibia.at(rng.uniform(0.15, 0.4), X - 0.7 * Y)), ("foot", inner), -0.05 * X,
+    limb.add_strand("tibialis_anterior", ("shank", tibia.at(rng.uniform(0.15, 0.4), X - 0.7 * Y)), ("foot", inner), -0.02 * X,
                     rng.uniform(0.009, 0.013), 0.0035, (0.05, 0.4))
     limb.add_strand("extensor", ("shank", fibula.at(rng.uniform(0.15, 0.5), X + 0.3 * Y)), ("foot", sole.at(0.8, Z)),
-                    -0.10 * X, rng.uniform(0.007, 0.010), 0.003, (0.05, 0.5))
+                    -0.05 * X, rng.uniform(0.007, 0.010), 0.003, (0.05, 0.5))
     limb.add_strand("peroneus", ("shank", fibula.at(rng.uniform(0.15, 0.5), -Y)), ("foot", outer), np.array([-0.05, -0.04, 0]),
                     rng.uniform(0.007, 0.010), 0.003, (0.05, 0.45))
     limb.add_strand("soleus", ("shank", tibia.at(0.2, -X)), ("foot", heel.at(0.9, -X - 0.3 * Z)), -0.04 * X, rng.uniform(0.014, 0.020),
@@ -296,4 +296,37 @@ def ankle(limb):
     limb.motion = (["dorsiflexion", "inversion"], [[0, 0], [20, 0], [-45, int(rng.integers(-20, 25))]], 4)
 
 
-KINDS = {make.__name__: make for make in (hinge, ball, chain, forearm, spine, gluteal, shoulder, ankle)}
+def trunk(limb):
+    """A chest over a pelvis on five vertebrae, with straps and sheets before, behind and beside them."""
+    rng = limb.rng
+    height, wide, back = rng.uniform(0.030, 0.036), rng.uniform(0.11, 0.13), -0.035 * X
+    top = 0.06 + 5 * height
+    sacrum = limb.add_bone("sacrum", "pelvis", shaft(back + 0.055 * Z, back - 0.02 * X - 0.05 * Z, 0.02, rng, 1.2, 0.7, 0))
+    limb.add_bone("pubis", "pelvis", shaft(np.array([0.075, -0.045, -0.03]), np.array([0.075, 0.045, -0.03]), 0.009, rng, 1, 1, 0))
+    crests = [limb.add_bone(f"ilium_{name}", "pelvis", plate(np.array([0, 0.045 * side, -0.01]), np.array([0.005, side * wide, 0.09]),
+                                                             [0.03, 0.05, 0.06], 0.006, unit(np.array([0, 1, -0.8 * side]))), flat=True)
+              for name, side in (("left", 1), ("right", -1))]
+    for k in range(5):
+        limb.add_bone(f"vertebra_{k}", f"vertebra_{k}", shaft(back + (0.06 + k * height + 0.003) * Z,
+                                                              back + (0.06 + (k + 1) * height - 0.003) * Z, 0.019, rng, 1.1, 1.1, 0))
+    rise = np.linspace(0.005, 0.26, 24)
+    barrel = wide * (1 - ((rise - 0.11) / 0.2) ** 4).clip(0.12) ** 0.5
+    ribs = limb.add_bone("ribs", "chest", Tube(np.outer(rise + top, Z) + 0.02 * X, barrel, 0.8 * barrel, np.tile(X, (24, 1))))
+    for name, side, crest in (("left", 1, crests[0]), ("right", -1, crests[1])):
+        limb.add_strand(f"erector_{name}", ("pelvis", sacrum.at(0.5, side * Y - X)), ("chest", ribs.at(0.5, 0.35 * side * Y - X)),
+                        np.array([-0.03, 0.02 * side, 0]), rng.uniform(0.012, 0.017), 0.005, (0.05, 0.1))
+        limb.add_strand(f"quadratus_{name}", ("pelvis", crest.line[-2] - 0.035 * X), ("chest", ribs.at(0.02, 0.5 * side * Y - X)),
+                        0.01 * side * Y, rng.uniform(0.008, 0.011), 0.005, (0.05, 0.05))
+        limb.add_fan(f"rectus_{name}", ("pelvis", np.array([[0.08, side * y, -0.02] for y in (0.008, 0.02, 0.032)])),
+                     ("chest", [ribs.at(0.15, X + side * y * Y, 0.003) for y in (0.1, 0.3, 0.5)]), 0.03 * X, rng.uniform(0.004, 0.007))
+        limb.add_fan(f"oblique_{name}", ("pelvis", [crest.line[-1] + [x, 0, 0.004] for x in (0.05, 0.02, -0.01, -0.03)]),
+                     ("chest", [ribs.at(0.1, side * Y + x * X, 0.003) for x in (0.7, 0.3, -0.1, -0.4)]), 0.02 * side * Y,
+                     rng.uniform(0.004, 0.006))
+    bodies = ["pelvis", *(f"vertebra_{k}" for k in range(5)), "chest"]
+    for k in range(6):
+        limb.add_joint(f"joint_{k}", bodies[k], bodies[k + 1], back + (0.057 + k * height) * Z, [(f"flexion_{k}", Y), (f"twist_{k}", Z)])
+    limb.motion = ([f"{word}_{k}" for k in range(6) for word in ("flexion", "twist")],
+                   [[0, 0] * 6, [int(rng.integers(3, 7)), 0] * 6, [-3, int(rng.integers(-5, 6))] * 6], 1)
+
+
+KINDS = {make.__name__: make for make in (hinge, ball, chain, forearm, spine, gluteal, shoulder, ankle, trunk)}
