@@ -175,6 +175,27 @@ TEST(Measurer, remembering_where_points_were_changes_no_number) {
   EXPECT_LT(frames_inside, 60);
 }
 
+TEST(Measurer, what_muscles_overlap_by_at_rest_is_forgiven_around_it_alone) {
+  Scene scene = ball_beside_a_box();
+  scene.method.name = "xpbd";
+  scene.muscles.push_back(scene.muscles.front());
+  scene.muscles[0].surface = shapes::sphere({0, 0, 0.06}, 0.02, 3);
+  scene.muscles[1].name = "long";
+  scene.muscles[1].surface = shapes::sphere(Vec3::Zero(), 0.02, 4);
+  scene.muscles[1].surface.vertices.row(2) *= 6;              // 24 cm from end to end
+  scene.muscles[0].surface.vertices.row(0).array() += 0.033;  // 4 mm in it
+  Frame frame;
+  frame.pose = pose_with(RigidTransform::Identity());
+  for (const Muscle& muscle : scene.muscles) frame.muscles.push_back({muscle.surface.vertices});
+  Measurer measurer(scene);
+  EXPECT_EQ(measurer.measure(frame)[1].muscle_depth_beyond_rest, 0);
+  frame.muscles[0].points.row(2).array() -= 0.01;
+  EXPECT_LT(measurer.measure(frame)[1].muscle_depth_beyond_rest, 1e-3) << "slid along by 1 cm, a little deeper";
+  frame.muscles[0].points.row(2).array() -= 0.11;
+  EXPECT_GT(measurer.measure(frame)[1].muscle_depth_beyond_rest, 3e-3) << "as deep as at rest, at the other end";
+  EXPECT_EQ(measurer.measure(frame)[1].deepest_in, scene.muscles[0].name);
+}
+
 TEST(Measurer, says_which_muscle_a_vertex_lies_deepest_in_where_the_method_keeps_them_apart) {
   Scene scene = ball_beside_a_box();
   for (const Real x : {0.12, 0.165}) {

@@ -18,15 +18,49 @@ static std::vector<std::vector<char>> attached_vertices_of(const Scene& scene) {
   return attached;
 }
 
-MuscleDepths::MuscleDepths(const Scene& scene) : attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)) {
-  const auto count = static_cast<Index>(scene.muscles.size());
-  at_rest_ = Eigen::MatrixXd::Zero(count, count);
+/// How far muscles are taken to slide along each other, m.
+static constexpr Real slide_reach = 0.03;
+
+static std::vector<Points> vertices_of(const Scene& scene) {
   std::vector<Points> points;
   for (const Muscle& muscle : scene.muscles) points.push_back(muscle.surface.vertices);
-  for (const DepthInOther& each : depths_of(points)) {
-    const Real deepest = std::max(at_rest_(each.surface, each.other), each.depth);
-    at_rest_(each.surface, each.other) = at_rest_(each.other, each.surface) = deepest;
+  return points;
+}
+
+MuscleDepths::MuscleDepths(const Scene& scene)
+    : attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)), at_rest_(vertices_of(scene)) {
+  const std::size_t count = scene.muscles.size();
+  std::vector<std::vector<DepthInOther>> of_pairs(count * count);
+  for (const DepthInOther& each : depths_of(at_rest_)) of_pairs[pair_of(each)].push_back(each);
+  for (const std::vector<DepthInOther>& pair : of_pairs) {
+    Overlap& overlap = overlaps_.emplace_back();
+    overlap.places.resize(3, static_cast<Index>(pair.size()));
+    overlap.depths.resize(static_cast<Index>(pair.size()));
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      overlap.places.col(static_cast<Index>(i)) = place_at_rest(pair[i]);
+      overlap.depths[static_cast<Index>(i)] = pair[i].depth;
+    }
   }
+}
+
+std::size_t MuscleDepths::pair_of(const DepthInOther& each) const {
+  const auto [first, second] = std::minmax(each.surface, each.other);
+  return static_cast<std::size_t>(first) * at_rest_.size() + static_cast<std::size_t>(second);
+}
+
+Vec3 MuscleDepths::place_at_rest(const DepthInOther& each) const {
+  return at_rest_[static_cast<std::size_t>(each.surface)].col(each.vertex);
+}
+
+/// The deepest at rest around a vertex, m.
+Real MuscleDepths::forgiven(const DepthInOther& each) const {
+  const Overlap& overlap = overlaps_[pair_of(each)];
+  const Vec3 place = place_at_rest(each);
+  Real deepest = 0;
+  for (Index i = 0; i < overlap.depths.size(); ++i)
+    if (overlap.depths[i] > deepest && (overlap.places.col(i) - place).squaredNorm() < slide_reach * slide_reach)
+      deepest = overlap.depths[i];
+  return deepest;
 }
 
 /// Of free vertices only: attached ones go with their bones wherever these go.
@@ -44,7 +78,8 @@ std::vector<DepthBeyondRest> MuscleDepths::beyond_rest(const Frame& frame) const
   std::vector<DepthBeyondRest> beyond(points.size());
   for (const DepthInOther& each : depths_of(points)) {
     DepthBeyondRest& deepest = beyond[static_cast<std::size_t>(each.surface)];
-    const Real depth = each.depth - at_rest_(each.surface, each.other);
+    if (each.depth <= deepest.depth) continue;
+    const Real depth = each.depth - forgiven(each);
     if (depth > deepest.depth) deepest = {depth, each.other};
   }
   return beyond;

@@ -9,14 +9,14 @@
 namespace gracilis {
 
 /// How deep the deepest of a muscle's free vertices lies in another, beyond how deep these two lie in each other at
-/// rest.
+/// rest around it.
 struct DepthBeyondRest {
   Real depth = 0;    ///< m
   Index other = -1;  ///< the muscle that it lies in; -1 where none does
 };
 
-/// Measures how deep muscles lie in each other. What two muscles overlap by at rest is forgiven them everywhere, since
-/// they slide along each other.
+/// Measures how deep muscles lie in each other. What two muscles overlap by at rest is forgiven the vertices that are
+/// within `slide_reach` of it then, since muscles slide along each other.
 class MuscleDepths {
  public:
   /// The scene must outlive this.
@@ -26,11 +26,22 @@ class MuscleDepths {
   std::vector<DepthBeyondRest> beyond_rest(const Frame& frame) const;
 
  private:
+  /// Where two muscles lie in each other at rest, and how deep.
+  struct Overlap {
+    Points places;
+    Eigen::VectorXd depths;  ///< m
+  };
+
   std::vector<DepthInOther> depths_of(const std::vector<Points>& points) const;
+  std::size_t pair_of(const DepthInOther& each) const;
+  Vec3 place_at_rest(const DepthInOther& each) const;
+  Real forgiven(const DepthInOther& each) const;
 
   std::vector<std::vector<char>> attached_;  ///< per muscle and vertex
   MutualDepths surfaces_;
-  Eigen::MatrixXd at_rest_;  ///< muscles × muscles: the deepest that the two lie in each other at rest, m
+  std::vector<Points> at_rest_;    ///< vertices of each muscle
+  std::vector<Overlap> overlaps_;  ///< muscles × muscles, number of the first times their count plus that of the
+                                   ///< second, the lower number first
 };
 
 }  // namespace gracilis
