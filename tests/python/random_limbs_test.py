@@ -24,7 +24,7 @@ def made(kind, seed, crowded=False):
 
 class RandomLimbs(unittest.TestCase):
     def test_surfaces_are_closed_and_their_triangles_agree_on_what_is_outside(self):
-        for kind in ("spine", "gluteal"):  # one of strands, one of sheets
+        for kind in ("spine", "gluteal", "ankle", "trunk"):  # of strands, of sheets, of both
             limb = made(kind, 1)
             shapes = [tube for _, _, tube in limb.bones] + [shape for _, shape, _, _ in limb.muscles]
             self.assertGreaterEqual(len(limb.muscles), 3, kind)
