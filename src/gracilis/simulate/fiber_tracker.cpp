@@ -9,18 +9,18 @@
 
 namespace gracilis {
 
-FiberTracker::FiberTracker(const Scene& scene, const Frame* capture) : scene_(scene) {
-  for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+FiberTracker::FiberTracker(const Scene& scene, const Frame* capture) : scene_(scene), muscles_(scene.muscles.size()) {
+  parallel_for_each(muscles_.size(), [&](std::size_t m) {
     const Muscle& muscle = scene.muscles[m];
-    Bound& bound = muscles_.emplace_back();
-    if (muscle.fibers.count == 0) continue;
+    Bound& bound = muscles_[m];
+    if (muscle.fibers.count == 0) return;
     const bool known = capture && capture->muscles[m].fibers.count() > 0;
     bound.rest = known ? capture->muscles[m].fibers : fibers_of(muscle);
-    if (bound.rest.count() == 0) continue;
+    if (bound.rest.count() == 0) return;
     bound.rest_lengths = polyline_lengths(bound.rest);
     if (!known) bound.binding.emplace(muscle.surface, bound.rest.points);
     bound.topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  }
+  });
 }
 
 MuscleFibers FiberTracker::follow(std::size_t muscle, const MuscleShape& shape) const {
