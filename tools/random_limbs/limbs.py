@@ -303,16 +303,17 @@ def trunk(limb):
     top = 0.06 + 5 * height
     sacrum = limb.add_bone("sacrum", "pelvis", shaft(back + 0.055 * Z, back - 0.02 * X - 0.05 * Z, 0.02, rng, 1.2, 0.7, 0))
     limb.add_bone("pubis", "pelvis", shaft(np.array([0.075, -0.045, -0.03]), np.array([0.075, 0.045, -0.03]), 0.009, rng, 1, 1, 0))
+    sides = (("left", 1), ("right", -1))
     crests = [limb.add_bone(f"ilium_{name}", "pelvis", plate(np.array([0, 0.045 * side, -0.01]), np.array([0.005, side * wide, 0.09]),
                                                              [0.03, 0.05, 0.06], 0.006, unit(np.array([0, 1, -0.8 * side]))), flat=True)
-              for name, side in (("left", 1), ("right", -1))]
+              for name, side in sides]
     for k in range(5):
         limb.add_bone(f"vertebra_{k}", f"vertebra_{k}", shaft(back + (0.06 + k * height + 0.003) * Z,
                                                               back + (0.06 + (k + 1) * height - 0.003) * Z, 0.019, rng, 1.1, 1.1, 0))
     rise = np.linspace(0.005, 0.26, 24)
     barrel = wide * (1 - ((rise - 0.11) / 0.2) ** 4).clip(0.12) ** 0.5
     ribs = limb.add_bone("ribs", "chest", Tube(np.outer(rise + top, Z) + 0.02 * X, barrel, 0.8 * barrel, np.tile(X, (24, 1))))
-    for name, side, crest in (("left", 1, crests[0]), ("right", -1, crests[1])):
+    for (name, side), crest in zip(sides, crests):
         limb.add_strand(f"erector_{name}", ("pelvis", sacrum.at(0.5, side * Y - X)), ("chest", ribs.at(0.5, 0.35 * side * Y - X)),
                         np.array([-0.03, 0.02 * side, 0]), rng.uniform(0.012, 0.017), 0.005, (0.05, 0.1))
         limb.add_strand(f"quadratus_{name}", ("pelvis", crest.line[-2] - 0.035 * X), ("chest", ribs.at(0.02, 0.5 * side * Y - X)),

@@ -1,6 +1,7 @@
 #include <gracilis/prepare/estimates.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <Eigen/Geometry>
@@ -80,13 +81,11 @@ void require_apart(const std::vector<NamedSurface>& muscles, const std::vector<N
   for (const NamedSurface& bone : bones) all.push_back(&bone);
   for (const NamedSurface* other : all) {
     if (other->mesh.face_count() == 0) continue;
-    Eigen::AlignedBox3d box(other->mesh.vertices.rowwise().minCoeff(), other->mesh.vertices.rowwise().maxCoeff());
+    const Eigen::AlignedBox3d box = bounding_box(other->mesh.vertices);
     std::unique_ptr<SignedDistance> distance;
     for (const NamedSurface& muscle : muscles) {
       if (&muscle == other || muscle.mesh.vertex_count() == 0) continue;
-      const Eigen::AlignedBox3d own(muscle.mesh.vertices.rowwise().minCoeff(),
-                                    muscle.mesh.vertices.rowwise().maxCoeff());
-      if (!box.intersects(own)) continue;
+      if (!box.intersects(bounding_box(muscle.mesh.vertices))) continue;
       if (!distance) distance = std::make_unique<SignedDistance>(other->mesh);
       const Real share = share_within(muscle.mesh, *distance, 0, 500);
       if (share > 0.5)

@@ -21,8 +21,6 @@ Points midpoints(const std::vector<std::pair<Index, Index>>& ends, const Points&
   return middles;
 }
 
-Eigen::AlignedBox3d box_of(const Points& points) { return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()}; }
-
 /// A box that holds all that a transform makes of another.
 Eigen::AlignedBox3d box_of_corners(const RigidTransform& transform, const Eigen::AlignedBox3d& box) {
   Eigen::AlignedBox3d moved;
@@ -46,7 +44,7 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
     ways_.emplace(scene, bones_, tracker);
     bellies_.emplace(scene, bones_, ways_->taut());
   }
-  for (const Bone& bone : scene.bones) bone_boxes_.push_back(box_of(bone.surface.vertices));
+  for (const Bone& bone : scene.bones) bone_boxes_.push_back(bounding_box(bone.surface.vertices));
   muscles_.resize(scene.muscles.size());
   last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
   parallel_for_each(muscles_.size(), [&](std::size_t m) { muscles_[m] = rest_of(scene.muscles[m], last_[m]); });
@@ -104,7 +102,7 @@ Eigen::VectorXd Measurer::depths_in(std::size_t bone, const Points& points, Last
 
 void Measurer::measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose,
                               std::vector<LastSeen>& last, MuscleMeasures& measures) const {
-  const Eigen::AlignedBox3d box = box_of(points);
+  const Eigen::AlignedBox3d box = bounding_box(points);
   for (std::size_t b = 0; b < bones_.size(); ++b) {
     const auto column = static_cast<Index>(b);
     const RigidTransform to_capture = pose.bodies[static_cast<std::size_t>(scene_.bones[b].body)].inverse();

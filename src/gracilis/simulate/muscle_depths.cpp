@@ -21,45 +21,31 @@ static std::vector<std::vector<char>> attached_vertices_of(const Scene& scene) {
 /// How far muscles are taken to slide along each other, m.
 static constexpr Real slide_reach = 0.03;
 
-static std::vector<Points> vertices_of(const Scene& scene) {
+MuscleDepths::MuscleDepths(const Scene& scene)
+    : scene_(scene), attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)) {
   std::vector<Points> points;
   for (const Muscle& muscle : scene.muscles) points.push_back(muscle.surface.vertices);
-  return points;
+  overlaps_.resize(points.size() * points.size());
+  for (const DepthInOther& each : depths_of(points))
+    overlaps_[pair_of(each)].push_back({place_at_rest(each), each.depth});
 }
 
-MuscleDepths::MuscleDepths(const Scene& scene)
-    : attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)), at_rest_(vertices_of(scene)) {
-  const std::size_t count = scene.muscles.size();
-  std::vector<std::vector<DepthInOther>> of_pairs(count * count);
-  for (const DepthInOther& each : depths_of(at_rest_)) of_pairs[pair_of(each)].push_back(each);
-  for (const std::vector<DepthInOther>& pair : of_pairs) {
-    Overlap& overlap = overlaps_.emplace_back();
-    overlap.places.resize(3, static_cast<Index>(pair.size()));
-    overlap.depths.resize(static_cast<Index>(pair.size()));
-    for (std::size_t i = 0; i < pair.size(); ++i) {
-      overlap.places.col(static_cast<Index>(i)) = place_at_rest(pair[i]);
-      overlap.depths[static_cast<Index>(i)] = pair[i].depth;
-    }
-  }
-}
-
+/// The same for both of a pair.
 std::size_t MuscleDepths::pair_of(const DepthInOther& each) const {
   const auto [first, second] = std::minmax(each.surface, each.other);
-  return static_cast<std::size_t>(first) * at_rest_.size() + static_cast<std::size_t>(second);
+  return static_cast<std::size_t>(first) * scene_.muscles.size() + static_cast<std::size_t>(second);
 }
 
 Vec3 MuscleDepths::place_at_rest(const DepthInOther& each) const {
-  return at_rest_[static_cast<std::size_t>(each.surface)].col(each.vertex);
+  return scene_.muscles[static_cast<std::size_t>(each.surface)].surface.vertices.col(each.vertex);
 }
 
-/// The deepest at rest around a vertex, m.
+/// The deepest that the two lie in each other at rest around a vertex, m.
 Real MuscleDepths::forgiven(const DepthInOther& each) const {
-  const Overlap& overlap = overlaps_[pair_of(each)];
   const Vec3 place = place_at_rest(each);
   Real deepest = 0;
-  for (Index i = 0; i < overlap.depths.size(); ++i)
-    if (overlap.depths[i] > deepest && (overlap.places.col(i) - place).squaredNorm() < slide_reach * slide_reach)
-      deepest = overlap.depths[i];
+  for (const RestDepth& rest : overlaps_[pair_of(each)])
+    if (rest.depth > deepest && (rest.place - place).squaredNorm() < slide_reach * slide_reach) deepest = rest.depth;
   return deepest;
 }
 

@@ -26,10 +26,10 @@ class MuscleDepths {
   std::vector<DepthBeyondRest> beyond_rest(const Frame& frame) const;
 
  private:
-  /// Where two muscles lie in each other at rest, and how deep.
-  struct Overlap {
-    Points places;
-    Eigen::VectorXd depths;  ///< m
+  /// A vertex of one of two muscles that lies in the other at rest.
+  struct RestDepth {
+    Vec3 place;
+    Real depth;  ///< m
   };
 
   std::vector<DepthInOther> depths_of(const std::vector<Points>& points) const;
@@ -37,11 +37,10 @@ class MuscleDepths {
   Vec3 place_at_rest(const DepthInOther& each) const;
   Real forgiven(const DepthInOther& each) const;
 
+  const Scene& scene_;
   std::vector<std::vector<char>> attached_;  ///< per muscle and vertex
   MutualDepths surfaces_;
-  std::vector<Points> at_rest_;    ///< vertices of each muscle
-  std::vector<Overlap> overlaps_;  ///< muscles × muscles, number of the first times their count plus that of the
-                                   ///< second, the lower number first
+  std::vector<std::vector<RestDepth>> overlaps_;  ///< by pair_of
 };
 
 }  // namespace gracilis

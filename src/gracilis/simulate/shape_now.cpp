@@ -17,11 +17,7 @@ FacesAround faces_around(const Eigen::Matrix3Xi& faces, Index vertex_count) {
 }
 
 ShapeNow::ShapeNow(const Points& vertices, const Eigen::Matrix3Xi& faces, const FacesAround& around)
-    : vertices_(vertices),
-      faces_(faces),
-      around_(around),
-      box_(vertices.rowwise().minCoeff(), vertices.rowwise().maxCoeff()),
-      tree_(vertices) {}
+    : vertices_(vertices), faces_(faces), around_(around), box_(bounding_box(vertices)), tree_(vertices) {}
 
 Vec3 ShapeNow::normal_at(Index vertex) const {
   Vec3 normal = Vec3::Zero();

@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/overlap/rest_overlap.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/scene/attached_vertices.hpp>
 
@@ -18,15 +19,9 @@ namespace {
 /// Nearer to a surface (m) a vertex lies on it and not inside, where rounding alone would say which way is out.
 constexpr Real on_surface = 1e-9;
 
-Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const auto vertex : mesh.vertices.colwise()) box.extend(Vec3(vertex));
-  return box;
-}
-
 /// What a surface answers about points.
 struct Solid {
-  explicit Solid(const TriangleMesh& mesh) : distance(mesh), box(box_of(mesh)) {}
+  explicit Solid(const TriangleMesh& mesh) : distance(mesh), box(bounding_box(mesh.vertices)) {}
 
   SignedDistance distance;
   Eigen::AlignedBox3d box;
@@ -89,7 +84,7 @@ std::vector<BoneOverlap> rest_overlaps_with_bones(const Scene& scene) {
   parallel_for_each(of_muscles.size(), [&](std::size_t m) {
     const Muscle& muscle = scene.muscles[m];
     const std::vector<char> attached = attached_vertices(muscle);
-    const Eigen::AlignedBox3d box = box_of(muscle.surface);
+    const Eigen::AlignedBox3d box = bounding_box(muscle.surface.vertices);
     for (std::size_t b = 0; b < bones.size(); ++b) {
       if (!bones[b]->box.intersects(box)) continue;
       BoneOverlap overlap{static_cast<Index>(m), static_cast<Index>(b),

@@ -1,6 +1,7 @@
 #include <gracilis/methods/cylinder/section_collision.hpp>
 
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/geometry/measures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ Obstacle obstacle_of(const SectionRings& rings) {
   Points vertices(3, rings.corners.cols() + 2);
   vertices << rings.corners, rings.centers.col(0), rings.centers.rightCols(1);
   const Eigen::Matrix3Xi faces = section_faces(rings.sections(), rings.rays);
-  Eigen::AlignedBox3d whole(vertices.rowwise().minCoeff(), vertices.rowwise().maxCoeff());
+  const Eigen::AlignedBox3d whole = bounding_box(vertices);
   return [vertices, faces, whole](const Vec3& a, const Vec3& b) {
     const Eigen::AlignedBox3d box(a.cwiseMin(b), a.cwiseMax(b));
     if (!whole.intersects(box)) return false;
