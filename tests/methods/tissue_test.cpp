@@ -77,6 +77,22 @@ TEST(Tissue, an_even_deformation_of_a_bar_costs_the_energy_of_its_law_and_leaves
   }
 }
 
+TEST(Tissue, fascia_ties_to_a_body_once_however_many_pieces_its_bones_come_in) {
+  const auto stiffnesses = [](const Scene& scene) {
+    std::vector<SignedDistance> distances;
+    for (const Bone& bone : scene.bones) distances.emplace_back(bone.surface);
+    std::vector<Real> all;
+    for (const Tie& tie : prepare_tissue(scene, scene.muscles[0], {}, distances).ties) all.push_back(tie.stiffness);
+    return all;
+  };
+  Scene scene = tube_scene();
+  scene.method.name = "tissue";
+  const std::vector<Real> of_one_piece = stiffnesses(scene);
+  ASSERT_FALSE(of_one_piece.empty());
+  for (std::size_t b = scene.bones.size(); b-- > 0;) scene.bones.push_back(scene.bones[b]);
+  EXPECT_EQ(stiffnesses(scene), of_one_piece);
+}
+
 TEST(Tissue, without_tension_rest_has_no_forces_and_neither_has_rest_moved_rigidly) {
   Scene scene = tube_scene();
   scene.method.name = "tissue";
