@@ -1,12 +1,15 @@
 #include "string_scenes.hpp"
 
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/strings/cross_sections.hpp>
 #include <gracilis/strings/lane_relaxation.hpp>
 #include <gracilis/strings/node_relaxation.hpp>
 #include <gracilis/strings/relaxation.hpp>
 #include <gracilis/strings/section_lanes-inl.hpp>
+#include <gracilis/strings/string_arms.hpp>
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 namespace gracilis::strings {
 namespace {
@@ -51,6 +54,32 @@ TEST(LaneRelaxation, a_string_per_lane_comes_where_one_after_the_other_does) {
       EXPECT_LT(away.maxCoeff(), 5e-5) << count << " strings at " << degrees;
     }
   }
+}
+
+TEST(LaneRelaxation, shapes_and_arms_have_the_same_bits_in_wide_and_in_narrow_registers) {
+  const Strung arm(arm_scene());
+  struct Found {
+    Points places;
+    FiberActions actions;
+  };
+  const auto found = [&] {
+    StringState state = capture_state(arm.muscle, 2);
+    for (const Real degrees : {3.0, 6.0, 9.0})
+      follow(arm.muscle, arm.bones, flexed(arm.scene, radians(degrees)), state);
+    const std::vector<std::vector<Twist>> twists = joint_twists(arm.scene, std::vector<Real>{radians(9.0)});
+    return Found{state.places, string_actions(arm.muscle, arm.bones, state, twists, true)};
+  };
+  const std::int64_t targets = hwy::SupportedTargets();
+  if ((targets & HWY_AVX3) == 0) GTEST_SKIP() << "this processor has no registers of 512 bits";
+  const Found wide = found();
+  hwy::SetSupportedTargetsForTest(targets & ~std::int64_t{HWY_AVX3});
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  const Found narrow = found();
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  EXPECT_EQ(wide.places, narrow.places);
+  EXPECT_EQ(wide.actions.arms, narrow.actions.arms);
+  EXPECT_EQ(wide.actions.wrenches, narrow.actions.wrenches);
 }
 
 TEST(LaneRelaxation, a_rigid_motion_of_all_bodies_moves_the_nodes_rigidly) {

@@ -7,6 +7,7 @@
 #define GRACILIS_KRYLOV_LANES_INL
 #endif
 
+#include <gracilis/strings/lane_sum-inl.hpp>
 #include <gracilis/strings/rate_workspace.hpp>
 #include <gracilis/strings/symmetric_lanes-inl.hpp>
 
@@ -24,15 +25,22 @@ using strings::TriedDirection;
 inline constexpr std::size_t at_once = 4;
 using Together = std::array<const float*, at_once>;
 
+/// for_lane_parts of points that lie group by group, number by number (matrix_lanes-inl.hpp).
+template <class Act>
+HWY_INLINE void for_point_parts(std::size_t count, const Act& act) {
+  for_lane_parts(count / 3, [&](std::size_t at, std::size_t part) HWY_ATTR {
+    for (std::size_t k = 0; k < 3; ++k) act(3 * at + k * hn::Lanes(D()), part);
+  });
+}
+
 HWY_INLINE void products(const Together& a, const Numbers& b, float* sums) {
   const float* of_b = b.data();
-  V sum[at_once];
-  for (V& each : sum) each = hn::Zero(D());
-  for (std::size_t at = 0; at < b.size(); at += hn::Lanes(D())) {
+  LaneSums<at_once> found;
+  for_point_parts(b.size(), [&](std::size_t at, std::size_t part) HWY_ATTR {
     const V x = hn::LoadU(D(), of_b + at);
-    for (std::size_t k = 0; k < at_once; ++k) sum[k] = hn::MulAdd(hn::LoadU(D(), a[k] + at), x, sum[k]);
-  }
-  for (std::size_t k = 0; k < at_once; ++k) sums[k] = hn::GetLane(hn::SumOfLanes(D(), sum[k]));
+    for (std::size_t k = 0; k < at_once; ++k) found(k, part) = hn::MulAdd(hn::LoadU(D(), a[k] + at), x, found(k, part));
+  });
+  for (std::size_t k = 0; k < at_once; ++k) sums[k] = found.total(k);
 }
 
 /// b + Σ shares a, in place.
@@ -48,10 +56,11 @@ HWY_INLINE void add_all(const Together& a, const float* shares, Numbers& b) {
 }
 
 HWY_INLINE float product(const Numbers& a, const Numbers& b) {
-  V sum = hn::Zero(D());
-  for (std::size_t at = 0; at < b.size(); at += hn::Lanes(D()))
-    sum = hn::MulAdd(hn::LoadU(D(), &a[at]), hn::LoadU(D(), &b[at]), sum);
-  return hn::GetLane(hn::SumOfLanes(D(), sum));
+  LaneSums<1> sum;
+  for_point_parts(b.size(), [&](std::size_t at, std::size_t part) HWY_ATTR {
+    sum(0, part) = hn::MulAdd(hn::LoadU(D(), &a[at]), hn::LoadU(D(), &b[at]), sum(0, part));
+  });
+  return sum.total(0);
 }
 
 HWY_INLINE float length_of(const Numbers& a) { return std::sqrt(product(a, a)); }
@@ -63,7 +72,8 @@ HWY_INLINE void scale(Numbers& a, float s) {
 
 /// Solves A x = b for several b: of all combinations of the residuals tried for this b and for those before, that which
 /// leaves the least (GMRES, Saad and Schultz 1986, in the form of Eisenstat, Elman and Schultz 1983; directions kept
-/// from one right side to the next as Fischer 1998 does). Vectors are multiples of the lanes.
+/// from one right side to the next as Fischer 1998 does). Vectors are points of whole
+/// groups of group_width nodes.
 class KrylovLanes {
  public:
   /// `directions`: room for them, kept from one use to the next.

@@ -8,6 +8,7 @@
 #define GRACILIS_LANE_COUPLING_INL
 #endif
 
+#include <gracilis/strings/lane_sum-inl.hpp>
 #include <gracilis/strings/matrix_lanes-inl.hpp>
 #include <gracilis/strings/rate_workspace.hpp>
 #include <gracilis/strings/section_lanes-inl.hpp>
@@ -80,34 +81,32 @@ class LaneCoupling {
     if (!is_there()) return;
     pulled_.assign(3 * width_ * (inner_ + 1), 0);
     for (std::size_t i = 1; i < inner_; ++i) {
-      const V zero = hn::Zero(D());
-      Point turning{zero, zero, zero};
-      for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
+      LaneSums<3> turning;
+      for_lane_parts(width_, [&](std::size_t s, std::size_t part) HWY_ATTR {
         const std::size_t at = i * width_ + s;
         const V pull = stiffness(at) * hn::LoadU(D(), &r_.free[at]);
-        const Point there = scaled(zero - pull, across(direction(at), load_point(&weights[3 * at])));
+        const Point there = scaled(hn::Zero(D()) - pull, across(direction(at), load_point(&weights[3 * at])));
         store_point(there, &pulled_[3 * at]);
-        turning = turning + cross(load_point(&r_.arm[3 * at]), there);
-      }
+        turning.add(0, part, cross(load_point(&r_.arm[3 * at]), there));
+      });
       for_neighbor_means(lanes_.neighbor_weight_of, pulled_, i, [&](std::size_t at, Point sum) HWY_ATTR {
         store_point(load_point(&of_moves[3 * at]) + sum, &of_moves[3 * at]);
       });
-      turn_transposed(i, total(turning), of_moves);
+      turn_transposed(i, turning.total_point(0), of_moves);
     }
   }
 
   /// How fast a cross-section turns where nodes move, rad per unit.
   Eigen::Vector3f section_turning(const std::vector<float>& moves, std::size_t i) const {
-    const V zero = hn::Zero(D());
-    Point moment{zero, zero, zero}, turning{zero, zero, zero};
-    for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
+    LaneSums<6> sums;  // of moments and of directions
+    for_lane_parts(width_, [&](std::size_t s, std::size_t part) HWY_ATTR {
       const std::size_t at = i * width_ + s;
-      moment = moment + cross(load_point(&r_.section_arm[3 * at]), load_point(&moves[3 * at]));
+      sums.add(0, part, cross(load_point(&r_.section_arm[3 * at]), load_point(&moves[3 * at])));
       const Point difference = load_point(&moves[3 * (at + width_)]) - load_point(&moves[3 * (at - width_)]);
-      turning = plus_scaled(turning, counted(s), direction_rate(at, difference));
-    }
+      sums.add(3, part, scaled(counted(s), direction_rate(at, difference)));
+    });
     const RateWorkspace::Section& section = r_.sections[i];
-    return section.softness * (total(moment) + section.direction.cross(section.mean_rate * total(turning)));
+    return section.softness * (sums.total_point(0) + section.direction.cross(section.mean_rate * sums.total_point(3)));
   }
 
  private:
@@ -152,16 +151,12 @@ class LaneCoupling {
 
   void measure_section(std::size_t i, const Eigen::Matrix3f& turn) {
     RateWorkspace::Section& section = r_.sections[i];
-    const V zero = hn::Zero(D());
-    Point sum{zero, zero, zero};
-    for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
+    LaneSums<3> sum;
+    for_lane_parts(width_, [&](std::size_t s, std::size_t part) HWY_ATTR {
       const std::size_t at = i * width_ + s;
-      const Point reach = load(w_.place, at + width_) - load(w_.place, at - width_);
-      const V inverse = lanes_of(1) / hn::Sqrt(hn::Max(dot<Math>(reach, reach), lanes_of(1e-20f)));
-      const Point along = scaled(inverse, reach);
-      sum = plus_scaled(sum, counted(s), along);
-    }
-    const Eigen::Vector3f directions = total(sum), mean = directions.normalized();
+      sum.add(0, part, scaled(counted(s), unit(load(w_.place, at + width_) - load(w_.place, at - width_))));
+    });
+    const Eigen::Vector3f directions = sum.total_point(0), mean = directions.normalized();
     section.mean_rate = (Eigen::Matrix3f::Identity() - mean * mean.transpose()) / directions.norm();
     section.direction = turn * lanes_.section_direction[i];
     Eigen::Matrix3f correlation;

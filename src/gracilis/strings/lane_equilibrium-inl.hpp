@@ -129,14 +129,14 @@ class LaneEquilibrium {
 
   /// Its transposed: the force on a body, and the moment about the workspace's center.
   std::pair<Vec3, Vec3> on_body(std::size_t body, const Numbers& weights) const {
-    const V zero = hn::Zero(D());
-    Point force{zero, zero, zero}, moment = force;
-    for (std::size_t at = width_; at < count_ - width_; at += hn::Lanes(D())) {
+    LaneSums<6> sums;  // of forces and of moments
+    for_lane_parts(count_ - 2 * width_, [&](std::size_t from_first, std::size_t part) HWY_ATTR {
+      const std::size_t at = width_ + from_first;
       const Point weight = scaled(load(r_.free, at), load_point(&weights[3 * at]));
-      force = force + transposed_times(load_matrix(&r_.bodies[body].by_velocity[9 * at]), weight);
-      moment = moment + transposed_times(load_matrix(&r_.bodies[body].by_turning[9 * at]), weight);
-    }
-    return {total(force).cast<Real>(), total(moment).cast<Real>()};
+      sums.add(0, part, transposed_times(load_matrix(&r_.bodies[body].by_velocity[9 * at]), weight));
+      sums.add(3, part, transposed_times(load_matrix(&r_.bodies[body].by_turning[9 * at]), weight));
+    });
+    return {sums.total_point(0).cast<Real>(), sums.total_point(3).cast<Real>()};
   }
 
   /// How bodies carry the nodes: by their shares, or all of it by the one that holds a node.

@@ -55,12 +55,8 @@ HWY_INLINE Matrix inverse(Matrix a, V& determinant) {
   return {{r * x.x, r * y.x, r * z.x}, {r * x.y, r * y.y, r * z.y}, {r * x.z, r * y.z, r * z.z}};
 }
 
-/// The same vector in each lane, and the sum over lanes.
+/// The same vector in each lane.
 HWY_INLINE Point lanes_of(const Eigen::Vector3f& v) { return {lanes_of(v.x()), lanes_of(v.y()), lanes_of(v.z())}; }
-HWY_INLINE Eigen::Vector3f total(Point p) {
-  const auto sum = [](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(D(), v)); };
-  return {sum(p.x), sum(p.y), sum(p.z)};
-}
 
 /// Points and matrices of a group of nodes lie in a row, number by number: 3 or 9 times as many lanes as nodes.
 HWY_INLINE Point load_point(const float* p) {

@@ -8,6 +8,7 @@
 #endif
 
 #include <gracilis/strings/lane_forces-inl.hpp>
+#include <gracilis/strings/lane_sum-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
@@ -75,31 +76,26 @@ HWY_INLINE void turn_sections(int steps, LaneWorkspace& w) {
 /// Of the nodes of each section with where they are at rest, as section_turns has it.
 HWY_INLINE void correlate_sections(const strings::StringLanes& lanes, LaneWorkspace& w) {
   const D d;
-  const auto width = static_cast<std::size_t>(lanes.width);
+  const auto width = static_cast<std::size_t>(lanes.width), strings = static_cast<std::size_t>(lanes.strings);
   for (std::size_t i = 1; i + 1 < static_cast<std::size_t>(lanes.nodes); ++i) {
-    Point direction = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    MatrixLanes sum{{direction, direction, direction}};
-    for (std::size_t s = 0; s < width; s += hn::Lanes(d)) {
+    LaneSums<12> sums;  // rows of the matrix, then the direction
+    for_lane_parts(width, [&](std::size_t s, std::size_t part) HWY_ATTR {
       const std::size_t at = i * width + s;
-      const auto counted =
-          hn::FirstN(d, s < static_cast<std::size_t>(lanes.strings) ? static_cast<std::size_t>(lanes.strings) - s : 0);
+      const auto counted = hn::FirstN(d, s < strings ? strings - s : 0);
       const Point x = load(w.place, at), rest = load(lanes.from_section, at);
       const Point along = unit(load(w.place, at + width) - load(w.place, at - width));
-      direction = direction + Point{hn::IfThenElseZero(counted, along.x), hn::IfThenElseZero(counted, along.y),
-                                    hn::IfThenElseZero(counted, along.z)};
-      sum.row[0] = sum.row[0] + scaled(x.x, rest);
-      sum.row[1] = sum.row[1] + scaled(x.y, rest);
-      sum.row[2] = sum.row[2] + scaled(x.z, rest);
-    }
-    const auto total = [&](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, v)); };
-    Eigen::Vector3f mean(total(direction.x), total(direction.y), total(direction.z));
-    mean.normalize();
+      sums.add(0, part, scaled(x.x, rest));
+      sums.add(3, part, scaled(x.y, rest));
+      sums.add(6, part, scaled(x.z, rest));
+      sums.add(9, part,
+               Point{hn::IfThenElseZero(counted, along.x), hn::IfThenElseZero(counted, along.y),
+                     hn::IfThenElseZero(counted, along.z)});
+    });
+    const Eigen::Vector3f mean = sums.total_point(9).normalized();
     const Eigen::Vector3f& rest = lanes.section_direction[i];
-    for (std::size_t row = 0; row < 3; ++row) {
-      const float along = mean[static_cast<Index>(row)];
-      w.correlation[3 * row][i] = total(sum.row[row].x) + along * rest.x();
-      w.correlation[3 * row + 1][i] = total(sum.row[row].y) + along * rest.y();
-      w.correlation[3 * row + 2][i] = total(sum.row[row].z) + along * rest.z();
+    for (std::size_t k = 0; k < 9; ++k) {
+      const auto row = static_cast<Index>(k / 3), column = static_cast<Index>(k % 3);
+      w.correlation[k][i] = sums.total(k) + mean[row] * rest[column];
     }
   }
 }

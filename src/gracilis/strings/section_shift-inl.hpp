@@ -8,6 +8,7 @@
 #endif
 
 #include <gracilis/strings/lane_forces-inl.hpp>
+#include <gracilis/strings/lane_sum-inl.hpp>
 
 #include <Eigen/LU>
 
@@ -56,27 +57,22 @@ class SectionShift {
   HWY_INLINE void sum_section(std::size_t i) {
     const D d;
     const auto strings = static_cast<std::size_t>(lanes_.strings);
-    SymmetricLanes sum = diagonal(hn::Zero(d));
-    Point gradient{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    V coupling = hn::Zero(d);
-    for (std::size_t s = 0; s < width_; s += hn::Lanes(d)) {
+    LaneSums<10> sums;  // stiffness, forces, and how strings couple it to the next
+    for_lane_parts(width_, [&](std::size_t s, std::size_t part) HWY_ATTR {
       const std::size_t at = i * width_ + s;
       const auto counted =
           hn::And(hn::FirstN(d, s < strings ? strings - s : 0), hn::Gt(load(lanes_.free, at), hn::Zero(d)));
-      const auto of_counted = [&](V x) HWY_ATTR { return hn::IfThenElseZero(counted, x); };
       const SymmetricLanes own = stiffness(at, s);
       const Point force = load(w_.gradient, at);
-      sum.xx = sum.xx + of_counted(own.xx), sum.xy = sum.xy + of_counted(own.xy), sum.xz = sum.xz + of_counted(own.xz);
-      sum.yy = sum.yy + of_counted(own.yy), sum.yz = sum.yz + of_counted(own.yz), sum.zz = sum.zz + of_counted(own.zz);
-      gradient = gradient + Point{of_counted(force.x), of_counted(force.y), of_counted(force.z)};
-      coupling = coupling + of_counted(load(lanes_.tension, s) * load(lanes_.free, at + width_));
-    }
-    const auto total = [&](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, v)); };
+      const V coupling = load(lanes_.tension, s) * load(lanes_.free, at + width_);
+      const V all[] = {own.xx, own.xy, own.xz, own.yy, own.yz, own.zz, force.x, force.y, force.z, coupling};
+      for (std::size_t k = 0; k < 10; ++k) sums.add(k, part, hn::IfThenElseZero(counted, all[k]));
+    });
     LaneWorkspace::Section& section = w_.sections[i];
-    const float xy = total(sum.xy), xz = total(sum.xz), yz = total(sum.yz);
-    section.stiffness << total(sum.xx), xy, xz, xy, total(sum.yy), yz, xz, yz, total(sum.zz);
-    section.shift << -total(gradient.x), -total(gradient.y), -total(gradient.z);
-    section.coupling = total(coupling);
+    const float xy = sums.total(1), xz = sums.total(2), yz = sums.total(4);
+    section.stiffness << sums.total(0), xy, xz, xy, sums.total(3), yz, xz, yz, sums.total(5);
+    section.shift = -sums.total_point(6);
+    section.coupling = sums.total(9);
   }
 
   /// Block elimination (Thomas). A section without free strings stays.

@@ -77,15 +77,14 @@ class LaneActions {
     // What the solve left over is taken for nodes that bodies carry, so that all forces balance whatever that is.
     const Numbers at_nodes = equilibrium_.by_places_transposed(adjoint);
     for (std::size_t c = 0; c < lanes_.bodies.size(); ++c) {
-      const V zero = hn::Zero(D());
-      Point force{zero, zero, zero}, moment = force;
-      for (std::size_t at = 0; 3 * at < weights.size(); at += hn::Lanes(D())) {
+      LaneSums<6> sums;  // of forces and of moments
+      for_lane_parts(weights.size() / 3, [&](std::size_t at, std::size_t part) HWY_ATTR {
         const Point each =
             scaled(load(lanes_.shares[c], at), load_point(&at_nodes[3 * at]) - load_point(&weights[3 * at]));
-        force = force + each, moment = moment + cross(load(w_.place, at), each);
-      }
-      const Vec3 sum = total(force).cast<Real>();
-      add_wrench(actions.wrenches, lanes_.bodies[c], sum, total(moment).cast<Real>() + w_.center.cross(sum));
+        sums.add(0, part, each), sums.add(3, part, cross(load(w_.place, at), each));
+      });
+      const Vec3 force = sums.total_point(0).cast<Real>();
+      add_wrench(actions.wrenches, lanes_.bodies[c], force, sums.total_point(3).cast<Real>() + w_.center.cross(force));
     }
   }
 
