@@ -64,6 +64,27 @@ TEST(RestOverlap, of_two_spheres_is_their_known_lens) {
   }
 }
 
+TEST(RestOverlap, two_surfaces_lie_as_deep_in_each_other_around_a_vertex_as_free_ones_do_within_the_slide_reach) {
+  const Real radius = 0.02, distance = 0.036;
+  const TriangleMesh a = shapes::sphere(Vec3::Zero(), radius, 4), b = shapes::sphere({distance, 0, 0}, radius, 4);
+  const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
+  ASSERT_EQ(overlaps.size(), 1u);
+  const std::vector<char> all(static_cast<std::size_t>(a.vertex_count()), 1), none(all.size(), 0);
+  const DepthsAround depths = depths_around(overlaps[0], {a.vertices, all}, {b.vertices, all});
+  // The deepest of both lie at 16 and 20 mm on the axis.
+  for (Index v = 0; v < a.vertex_count(); ++v) {
+    const Vec3 p = a.vertices.col(v);
+    const float found = depths.of_first[static_cast<std::size_t>(v)];
+    if ((p - Vec3(0.016, 0, 0)).norm() < slide_reach - 0.001) {
+      EXPECT_NEAR(found, 0.004, 1e-4) << p.transpose();
+    } else if ((p - Vec3(0.02, 0, 0)).norm() > slide_reach + 0.006) {
+      EXPECT_EQ(found, 0) << p.transpose();
+    }
+  }
+  EXPECT_TRUE(depths_around(overlaps[0], {a.vertices, none}, {b.vertices, none}).of_first.empty());
+  EXPECT_NEAR(*std::max_element(depths.of_second.begin(), depths.of_second.end()), 0.004, 1e-4);
+}
+
 TEST(RestOverlap, surfaces_that_lie_apart_or_only_have_boxes_in_common_do_not_overlap) {
   const TriangleMesh a = shapes::sphere(Vec3::Zero(), 0.02, 3);
   EXPECT_TRUE(rest_overlaps({a, shapes::sphere({0.05, 0, 0}, 0.02, 3)}).empty());

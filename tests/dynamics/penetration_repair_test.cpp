@@ -40,6 +40,12 @@ struct DrawnIn {
     drawn = nearest_particle(meeting.particles[0], {ball_radius, 0, 0});
     meeting.particles[0].position(drawn).x() += 0.2f * mm + depth;
   }
+  /// As if the two had lain so deep (m) in each other at rest around one of the first ball's particles.
+  void lie_at_rest(float depth, Index particle) {
+    std::vector<float>& deepest = meeting.world.pairs[0].first_deepest;
+    deepest.assign(static_cast<std::size_t>(meeting.particles[0].count()), 0);
+    deepest[static_cast<std::size_t>(particle)] = depth;
+  }
   std::vector<char> repair() {
     meeting.find();
     meeting.follow();
@@ -119,10 +125,10 @@ TEST(PenetrationRepair, what_is_hardly_in_is_left_to_contact) {
   EXPECT_EQ(balls.meeting.particles[0].xyzw, before[0].xyzw);
 }
 
-TEST(PenetrationRepair, surfaces_that_lay_in_each_other_at_rest_may_lie_as_deep) {
+TEST(PenetrationRepair, surfaces_that_lay_in_each_other_at_rest_may_lie_as_deep_there) {
   for (const float deepest : {1.0f * mm, 3.0f * mm}) {
     DrawnIn balls(2 * mm);
-    balls.meeting.world.pairs[0].deepest = deepest;
+    balls.lie_at_rest(deepest, balls.drawn);
     const float depth = balls.depth();
     const std::vector<Particles> before = balls.meeting.particles;
     EXPECT_EQ(balls.repair().empty(), deepest > depth);
@@ -130,10 +136,21 @@ TEST(PenetrationRepair, surfaces_that_lay_in_each_other_at_rest_may_lie_as_deep)
   }
 }
 
-TEST(PenetrationRepair, what_lay_in_the_other_at_rest_is_left_to_its_release) {
+TEST(PenetrationRepair, what_lay_in_each_other_elsewhere_excuses_nothing) {
+  DrawnIn balls(2 * mm);
+  balls.lie_at_rest(3 * mm, nearest_particle(balls.meeting.particles[0], {-ball_radius, 0, 0}));
+  EXPECT_FALSE(balls.repair().empty());
+  EXPECT_LT(balls.depth(), 0.5f * mm);
+}
+
+TEST(PenetrationRepair, what_lay_in_the_other_at_rest_comes_out_to_where_it_lay) {
   DrawnIn balls(2 * mm);
   balls.meeting.world.pairs[0].first_overlaps.assign(static_cast<std::size_t>(balls.meeting.particles[0].count()), 1);
-  EXPECT_TRUE(balls.repair().empty());
+  balls.lie_at_rest(1 * mm, balls.drawn);
+  const float depth = balls.depth();
+  const std::vector<Particles> before = balls.meeting.particles;
+  balls.repair();
+  EXPECT_NEAR(balls.moved(0, balls.drawn, before), (depth - 1 * mm) / 2, 0.01f * mm);
 }
 
 TEST(PenetrationRepair, what_the_winding_number_finds_outside_is_left_although_the_nearest_face_looks_away) {

@@ -1,5 +1,6 @@
 #include <gracilis/simulate/muscle_depths.hpp>
 
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
 #include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
@@ -17,9 +18,6 @@ static std::vector<std::vector<char>> attached_vertices_of(const Scene& scene) {
   for (const Muscle& muscle : scene.muscles) attached.push_back(attached_vertices(muscle));
   return attached;
 }
-
-/// How far muscles are taken to slide along each other, m.
-static constexpr Real slide_reach = 0.03;
 
 MuscleDepths::MuscleDepths(const Scene& scene)
     : scene_(scene), attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)) {

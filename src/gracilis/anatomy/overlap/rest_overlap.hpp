@@ -27,18 +27,22 @@ struct RestOverlap {
   Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }  ///< m, of both
 };
 
-/// The deepest of those vertices of both for which is_free(surface, vertex), m; 0 where there is none.
-template <class IsFree>
-Real deepest_free(const RestOverlap& overlap, const IsFree& is_free) {
-  Real deepest = 0;
-  const auto look_at = [&](Index surface, const InsideVertices& inside) {
-    for (std::size_t i = 0; i < inside.vertices.size(); ++i)
-      if (is_free(surface, inside.vertices[i])) deepest = std::max(deepest, inside.depths[i]);
-  };
-  look_at(overlap.first, overlap.of_first);
-  look_at(overlap.second, overlap.of_second);
-  return deepest;
-}
+/// How far muscles are taken to slide along each other, m: where two overlap at rest, they may be as deep in each other
+/// within it.
+inline constexpr Real slide_reach = 0.03;
+
+/// How deep two surfaces lie in each other at rest around each vertex of one of them, m: the deepest of all free
+/// vertices of both within `slide_reach`. Empty where no free vertex lies in the other.
+struct DepthsAround {
+  std::vector<float> of_first, of_second;
+};
+
+/// The surfaces at rest, in the same coordinates (m), and which of their vertices are free, by index.
+struct RestSurface {
+  const Points& rest;
+  const std::vector<char>& is_free;
+};
+DepthsAround depths_around(const RestOverlap& overlap, const RestSurface& first, const RestSurface& second);
 
 /// Which surfaces overlap, by exact distances in double precision (SignedDistance), in the order of pairs. Overlaps
 /// without a vertex inside are not seen. Precondition: closed surfaces, oriented outwards, finite.

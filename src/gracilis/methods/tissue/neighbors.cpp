@@ -158,9 +158,10 @@ SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSu
 
 /// What vertices of one muscle keep to another.
 struct Meeting {
-  Index from = 0, to = 0;         ///< muscles; to -1: its own surface
-  const std::vector<Real>& gaps;  ///< m, per vertex
-  Real stiffness = 0;             ///< N/m³
+  Index from = 0, to = 0;             ///< muscles; to -1: its own surface
+  const std::vector<Real>& gaps;      ///< m, per vertex
+  const std::vector<float>& deepest;  ///< as SurfacePair has it
+  Real stiffness = 0;                 ///< N/m³
 };
 
 /// A muscle's planes to another and the force that they will push it by, N, once it has settled.
@@ -168,7 +169,8 @@ struct FoundPlanes {
   std::vector<ContactPlane> planes;
   std::vector<Vec3> places;  ///< m, of their vertices
   Vec3 force = Vec3::Zero();
-  Real deepest = 0;  ///< m, of the free vertices that lie in the other
+  Real deepest = 0;          ///< m, of the free vertices that lie in the other
+  bool lies_deeper = false;  ///< any of these than the two did around it at rest
 };
 
 /// Each of the two surfaces goes half of the way, or may come as near.
@@ -183,7 +185,10 @@ FoundPlanes planes_of(const Neighbors& neighbors, const PlacedSurfaces& placed, 
     const Real gap = meeting.gaps[static_cast<std::size_t>(each.vertex)];
     const auto distance = static_cast<Real>(each.gap.distance);
     const Real lacking = gap - distance;
-    if (neighbors.areas[from][each.vertex] > 0) found.deepest = std::max(found.deepest, -distance);
+    if (neighbors.areas[from][each.vertex] > 0) {
+      found.deepest = std::max(found.deepest, -distance);
+      found.lies_deeper |= -distance > static_cast<Real>(depth_at_rest(meeting.deepest, each.vertex));
+    }
     const bool faces_it = placed.normals[from].col(each.vertex).dot(each.gap.normal) < 0;
     found.planes.push_back({each.vertex, meeting.to, normal, normal.dot(p) + lacking / 2,
                             faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
@@ -246,7 +251,11 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
     return gaps_at_rest(see_within(neighbors, placed, muscle, other, neighbor_reach),
                         static_cast<Index>(shapes[m].cols()), settings[m].gap);
   };
-  const auto is_free = [&](Index m, Index v) { return neighbors.areas[static_cast<std::size_t>(m)][v] > 0; };
+  std::vector<std::vector<char>> is_free;
+  for (const Eigen::VectorXd& areas : neighbors.areas) {
+    is_free.emplace_back();
+    for (const Real area : areas) is_free.back().push_back(area > 0);
+  }
   const std::vector<RestOverlap> overlaps = rest_overlaps(scene);
   auto overlap = overlaps.begin();
   const auto count = static_cast<Index>(shapes.size());
@@ -259,7 +268,11 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
       SurfacePair& of_seen = neighbors.world.pairs.emplace_back();
       of_seen.first = a, of_seen.second = b;
       if (overlap == overlaps.end() || overlap->first != a || overlap->second != b) continue;
-      of_seen.deepest = static_cast<float>(deepest_free(*overlap++, is_free));
+      const auto surface = [&](Index m) -> RestSurface {
+        return {shapes[static_cast<std::size_t>(m)], is_free[static_cast<std::size_t>(m)]};
+      };
+      DepthsAround depths = depths_around(*overlap++, surface(a), surface(b));
+      of_seen.first_deepest = std::move(depths.of_first), of_seen.second_deepest = std::move(depths.of_second);
     }
   }
   for (std::size_t m = 0; m < settings.size(); ++m) {
@@ -276,14 +289,18 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
   std::vector<std::vector<ContactPlane>> planes(shapes.size());
   if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
-  for (NeighborPair& pair : neighbors.pairs) {
+  for (std::size_t i = 0; i < neighbors.pairs.size(); ++i) {
+    NeighborPair& pair = neighbors.pairs[i];
+    const SurfacePair& at_rest = neighbors.world.pairs[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    FoundPlanes first = planes_of(neighbors, placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look),
-                                  {pair.first, pair.second, pair.first_gaps, neighbors.stiffness[a]});
+    FoundPlanes first =
+        planes_of(neighbors, placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look),
+                  {pair.first, pair.second, pair.first_gaps, at_rest.first_deepest, neighbors.stiffness[a]});
     FoundPlanes second =
         planes_of(neighbors, placed, see(neighbors, placed, pair.second, pair.first, pair.widest, look),
-                  {pair.second, pair.first, pair.second_gaps, neighbors.stiffness[b]});
+                  {pair.second, pair.first, pair.second_gaps, at_rest.second_deepest, neighbors.stiffness[b]});
     pair.deepest_seen = std::max(first.deepest, second.deepest);
+    pair.lies_deeper = first.lies_deeper || second.lies_deeper;
     even_out(first, second);
     append(first.planes, planes[a]);
     append(second.planes, planes[b]);
@@ -291,7 +308,7 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
   for (SelfMeeting& self : neighbors.selves) {
     if (look.self == SelfLook::anew)
       self.planes =
-          planes_of(neighbors, placed, see_itself(neighbors, placed, self), {self.muscle, -1, self.gaps, 0}).planes;
+          planes_of(neighbors, placed, see_itself(neighbors, placed, self), {self.muscle, -1, self.gaps, {}, 0}).planes;
     append(self.planes, planes[static_cast<std::size_t>(self.muscle)]);
   }
   for (std::vector<ContactPlane>& each : planes)
@@ -305,7 +322,7 @@ std::vector<Points> ways_apart(Neighbors& neighbors, const std::vector<Points>& 
   std::vector<std::size_t> pairs, muscles;
   for (std::size_t i = 0; i < neighbors.pairs.size(); ++i) {
     const NeighborPair& pair = neighbors.pairs[i];
-    if (!(pair.deepest_seen > static_cast<Real>(neighbors.world.pairs[i].deepest))) continue;
+    if (!pair.lies_deeper) continue;
     pairs.push_back(i);
     for (const Index m : {pair.first, pair.second}) muscles.push_back(static_cast<std::size_t>(m));
   }

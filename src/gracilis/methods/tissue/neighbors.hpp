@@ -24,7 +24,8 @@ struct NeighborPair {
   Index first = 0, second = 0;
   std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
   Real widest = 0;                            ///< m, of the gaps, whether apart or deep
-  Real deepest_seen = 0;  ///< m, how deep free vertices lay in the other at most when they last looked, or less
+  Real deepest_seen = 0;     ///< m, how deep free vertices lay in the other at most when they last looked, or less ...
+  bool lies_deeper = false;  ///< ... and any of them deeper than the two do around it at rest
 };
 
 /// How parts of one surface that fold onto each other keep apart.

@@ -35,6 +35,18 @@ void mark_side(const InsideVertices& inside, const std::vector<Real>& astray, bo
   }
 }
 
+void mark_depths(const RestOverlap& overlap, const Particles& first, const Particles& second, SurfacePair& pair) {
+  const auto movable = [](const Particles& particles) {
+    std::vector<char> can_move;
+    for (Index p = 0; p < particles.count(); ++p) can_move.push_back(particles.inverse_mass(p) > 0);
+    return can_move;
+  };
+  const Points first_rest = (positions_of(first).colwise() + pair.shift).cast<Real>(),
+               second_rest = positions_of(second).cast<Real>();
+  DepthsAround depths = depths_around(overlap, {first_rest, movable(first)}, {second_rest, movable(second)});
+  pair.first_deepest = std::move(depths.of_first), pair.second_deepest = std::move(depths.of_second);
+}
+
 /// One side of a pair at rest.
 struct RestSide {
   const Particles &probe, &target;
@@ -141,8 +153,8 @@ Real OverlapTable::deepest(Index first, Index second) const {
 void OverlapTable::mark(float reach, const std::vector<const Particles*>& rest, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
-  const auto can_move = [&](Index s, Index p) { return rest[static_cast<std::size_t>(s)]->inverse_mass(p) > 0; };
-  pair.deepest = static_cast<float>(deepest_free(entry->overlap, can_move));
+  mark_depths(entry->overlap, *rest[static_cast<std::size_t>(pair.first)], *rest[static_cast<std::size_t>(pair.second)],
+              pair);
   pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   const OverlapSides& sides = entry->sides;
   mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);

@@ -28,7 +28,8 @@ struct SurfacePair {
   std::vector<char> first_overlaps, second_overlaps;  ///< which particles lie in the other at rest; empty: none
   Eigen::Matrix3Xf first_ways, second_ways;  ///< unit, where those are to come out, in the other's shape at rest; zero:
                                              ///< where it is nearest; empty: none
-  float deepest = 0;  ///< m, how deep any particle of one that can move lies in the other at rest
+  std::vector<float> first_deepest, second_deepest;  ///< m, how deep the two lie in each other at rest around each
+                                                     ///< particle, of those that can move; empty: not at all
   float release = 0;  ///< m per step, how fast those come out that do: all alike, so that nothing bends on its way
   std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }  ///< a surface with itself
@@ -37,6 +38,11 @@ struct SurfacePair {
 /// Whether a particle lies in the other surface at rest, by the pair's `first_overlaps` or `second_overlaps`.
 inline bool overlaps_at_rest(const std::vector<char>& overlaps, Index particle) {
   return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
+}
+
+/// How deep a particle may lie in the other surface, by the pair's `first_deepest` or `second_deepest`, m.
+inline float depth_at_rest(const std::vector<float>& deepest, Index particle) {
+  return deepest.empty() ? 0 : deepest[static_cast<std::size_t>(particle)];
 }
 
 /// All surfaces that keep out of each other, and their pairs; constant. Self-contact needs the shape at rest, to tell

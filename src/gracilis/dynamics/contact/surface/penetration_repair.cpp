@@ -11,7 +11,7 @@ namespace gracilis {
 
 namespace {
 
-/// What lies so much deeper in another surface than anything of the pair at rest is taken out, m.
+/// What lies so much deeper in another surface than the two did around it at rest is taken out, m.
 constexpr float tolerated_depth = 0.0005f;
 /// How far along the surface others go along with a particle, over how far it goes itself.
 constexpr float blended_over = 4;
@@ -28,8 +28,7 @@ struct ProbeAndTarget {
   const Eigen::Matrix3Xf& target_normals;
   const Particles &probe, &target;
   Eigen::Vector3f shift;              ///< from the probe's coordinates to the target's
-  const std::vector<char>& overlaps;  ///< which of the probe's particles lie in the target at rest; empty: none
-  float deepest;                      ///< m, of what lies in the other at rest
+  const std::vector<float>& deepest;  ///< m, of what lies in the other at rest around each of the probe's particles
 };
 
 /// By the winding number: beside a fold the nearest point alone does not tell inside from outside.
@@ -46,15 +45,14 @@ bool is_inside(const Eigen::Vector3f& p, const ContactSurface& surface, const Pa
 /// What of the probe's particles near the target lies deep in it, and what of the target gives way.
 void gather_deep(const std::vector<VertexFaceCandidate>& near, const ProbeAndTarget& sides,
                  std::vector<Displacement>& of_probe, std::vector<Displacement>& of_target) {
-  const float deep = -sides.deepest - tolerated_depth;
   for (const VertexFaceCandidate& candidate : near) {
-    if (!(candidate.distance < deep) || overlaps_at_rest(sides.overlaps, candidate.particle) ||
-        !(sides.probe.inverse_mass(candidate.particle) > 0))
+    const float at_rest = depth_at_rest(sides.deepest, candidate.particle);
+    if (!(candidate.distance < -at_rest - tolerated_depth) || !(sides.probe.inverse_mass(candidate.particle) > 0))
       continue;
     const Eigen::Vector3f p = sides.probe.position(candidate.particle) + sides.shift;
     const PointGap gap = point_gap(p, sides.target_surface, NearestFace{candidate.face, candidate.barycentric},
                                    sides.target, sides.target_normals);
-    const float missing = -sides.deepest - gap.distance;
+    const float missing = -at_rest - gap.distance;
     if (!(missing > tolerated_depth) || !is_inside(p, sides.target_surface, sides.target)) continue;
     const bool both_move = can_move(sides.target_surface, candidate.face, sides.target);
     const Eigen::Vector3f way = (both_move ? 0.5f : 1.0f) * missing * gap.normal;
@@ -87,12 +85,10 @@ std::vector<char> repair_penetrations(const ContactWorld& world, const ContactWo
     if (pair.is_self()) continue;
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     gather_deep(state.candidates[i].near_second,
-                {world.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift, pair.first_overlaps,
-                 pair.deepest},
+                {world.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift, pair.first_deepest},
                 displacements[a], displacements[b]);
     gather_deep(state.candidates[i].near_first,
-                {world.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift, pair.second_overlaps,
-                 pair.deepest},
+                {world.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift, pair.second_deepest},
                 displacements[b], displacements[a]);
   }
   std::vector<char> moved(displacements.size());
