@@ -34,10 +34,11 @@ Meeting folded_ball(float away, bool lay_in_another, bool other_pair_first = fal
 }
 
 /// Whether there was anything to untangle.
-bool untangle_movers(Meeting& meeting, const Movers& movers, int attempt) {
+bool untangle_movers(Meeting& meeting, const Movers& movers, int attempt,
+                     const std::vector<Particles>& predicted = {}) {
   const std::vector<Tangle> tangles =
       find_tangles(meeting.world, meeting.state, meeting.pointers<const Particles*>(meeting.particles), movers);
-  untangle(meeting.world, tangles, attempt, meeting.pointers<Particles*>(meeting.particles));
+  untangle(meeting.world, tangles, attempt, predicted, meeting.pointers<Particles*>(meeting.particles));
   return std::any_of(tangles.begin(), tangles.end(), [](const Tangle& tangle) { return !tangle.pairs.empty(); });
 }
 
@@ -63,6 +64,27 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_untangled_and_says_so) {
   EXPECT_TRUE(untangle_once(meeting));
   EXPECT_FALSE(untangle_once(meeting)) << "all is untangled";
   EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
+}
+
+TEST(SurfaceContact, what_resists_twice_goes_back_to_the_shape_that_was_predicted_where_its_surroundings_went) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.pair(0, 0, 0.0003f).reach = 0.001f;
+  meeting.prepare();
+  // Flatter than at rest, and moved since.
+  std::vector<Particles> predicted = meeting.particles;
+  const Vector3f moved(0.0002f, 0, 0.0003f);
+  for (Index p = 0; p < predicted[0].count(); ++p) {
+    predicted[0].position(p).z() *= 0.6f;
+    meeting.particles[0].position(p) = predicted[0].position(p) + moved;
+  }
+  const Particles expected = meeting.particles[0];
+  const Vector3f place = meeting.particles[0].position(7);
+  meeting.particles[0].position(7) = 0.95f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f;
+  meeting.find();
+  meeting.follow();
+  EXPECT_TRUE(untangle_movers(meeting, {}, 2, predicted));
+  EXPECT_LT(largest_motion(expected, meeting.particles[0]), 0.0002f);
 }
 
 TEST(SurfaceContact, a_surface_that_has_folded_is_untangled_though_it_cuts_nothing) {

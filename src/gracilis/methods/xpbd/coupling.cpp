@@ -16,14 +16,16 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const ContactW
   const auto seen = particles_of<const Particles*>(steps);
   std::vector<const Particles*> start;
   for (const MuscleStep& step : steps) start.push_back(&step.state->start);
+  std::vector<Particles> predicted;
+  for (const Particles* each : seen) predicted.push_back(*each);
   update_broad_phase(world, seen, state);
   return {[&world, &state, seen](const Movers& movers) { update_narrow_phase(world, seen, state, movers); },
           [&world, &state, start, particles](const Movers& movers) {
             return project_candidates(world, state, start, particles, movers);
           },
           [&world, &state, seen](const Movers& movers) { return find_tangles(world, state, seen, movers); },
-          [&world, particles](const std::vector<Tangle>& tangles, int attempt) {
-            untangle(world, tangles, attempt, particles);
+          [&world, particles, predicted = std::move(predicted)](const std::vector<Tangle>& tangles, int attempt) {
+            untangle(world, tangles, attempt, predicted, particles);
           },
           [&world, &state, particles] { return repair_penetrations(world, state, particles); }};
 }

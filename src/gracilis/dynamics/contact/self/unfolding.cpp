@@ -16,6 +16,8 @@ namespace {
 constexpr float half = 0.5f;
 /// Rings around a cut, or around a particle, whose places tell how it lies.
 constexpr int rings_around_cut = 3, rings_around_particle = 2;
+/// Rings around a cut that go with it where motions are smoothed.
+constexpr int rings_of_motion = 3;
 /// Weight of the turn alone in the map, against what the places tell: a flat part tells nothing across itself.
 constexpr float turn_weight = 0.1f;
 /// Where a surface is thin for its edges a particle stands out from its neighbors' middle by this share of them.
@@ -135,14 +137,15 @@ Eigen::Vector3f offset_where_thin(const ContactSurface& surface, Index particle,
   return offset;
 }
 
-/// So many times over, the corners of cuts and those next to them go half of the way to goal(particle), all at once.
+/// So many times over, the corners of cuts and so many rings around them go half of the way to goal(particle), all at
+/// once.
 template <class Goal>
-void relax(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rounds, float most,
+void relax(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rings, int rounds, float most,
            Particles& particles, const Goal& goal) {
   std::vector<Index> corners;
   for (const FacePair& cut : cuts)
     for (const Index corner : corners_of(surface, cut)) corners.push_back(corner);
-  const std::vector<Index> moved = with_neighbors(surface, corners);
+  const std::vector<Index> moved = with_rings(surface, corners, rings);
   std::vector<Eigen::Vector3f> goals(moved.size());
   for (int round = 0; round < rounds; ++round) {
     std::transform(moved.begin(), moved.end(), goals.begin(), goal);
@@ -163,17 +166,25 @@ void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const s
 
 void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rounds, float most,
             Particles& particles) {
-  relax(surface, cuts, rounds, most, particles,
+  relax(surface, cuts, 1, rounds, most, particles,
         [&](Index particle) { return middle_of_neighbors(surface, particle, particles); });
 }
 
 void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
                    int rounds, float most, Particles& particles) {
-  relax(surface, cuts, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
+  relax(surface, cuts, 1, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
     Eigen::Vector3f middle = middle_of_neighbors(surface, particle, particles);
     const Eigen::Vector3f offset = offset_where_thin(surface, particle, rest);
     if (offset.isZero(0)) return middle;
     return middle + fit(with_rings(surface, {particle}, rings_around_particle), rest, particles).linear * offset;
+  });
+}
+
+void smooth_motion(const ContactSurface& surface, const Particles& predicted, const std::vector<FacePair>& cuts,
+                   int rounds, float most, Particles& particles) {
+  relax(surface, cuts, rings_of_motion, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
+    return predicted.position(particle) + middle_of_neighbors(surface, particle, particles) -
+           middle_of_neighbors(surface, particle, predicted);
   });
 }
 

@@ -24,4 +24,10 @@ void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, in
 void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
                    int rounds, float most, Particles& particles);
 
+/// Moves what cuts itself, and what lies around it, as its surroundings moved from the prediction: so many times over,
+/// each particle goes half of the way to where it was predicted and as far from there as its neighbors are on average;
+/// each time no further than `most` (m). A prediction that does not cut itself is hardly tangled by that.
+void smooth_motion(const ContactSurface& surface, const Particles& predicted, const std::vector<FacePair>& cuts,
+                   int rounds, float most, Particles& particles);
+
 }  // namespace gracilis

@@ -13,11 +13,15 @@ namespace {
 
 /// How far a particle goes at once to be untangled, in neighborhoods (of some edges each).
 constexpr float untangled_within = 0.5f;
-/// Where no more pairs of faces than these cut each other, as when a needle turns over, they go back to the shape that
-/// they had at rest; a tangle of more is relaxed, so many times over. Fewer leave more of it, more take the surface so
-/// far from its shape that it folds again in the next steps.
+/// Where no more pairs of faces than these still cut each other, as when a needle turns over, they go back to the shape
+/// that they had at rest; a tangle of more is relaxed, so many times over. Fewer leave more of it, more take the
+/// surface so far from its shape that it folds again in the next steps.
 constexpr std::size_t few = 3;
 constexpr int relaxing_rounds = 4;
+/// No more pairs of faces than these go back to where the surface was predicted as their surroundings did, and so does
+/// what resists twice: the motion since is smoothed so many times over.
+constexpr std::size_t small = 8;
+constexpr int smoothing_rounds = 64;
 
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairCandidates& candidates,
@@ -101,13 +105,15 @@ std::vector<Tangle> find_tangles(const ContactWorld& world, ContactWorldState& s
 }
 
 void untangle(const ContactWorld& world, const std::vector<Tangle>& tangles, int attempt,
-              const std::vector<Particles*>& particles) {
+              const std::vector<Particles>& predicted, const std::vector<Particles*>& particles) {
   parallel_for_each(tangles.size(), [&](std::size_t at) {
     const std::vector<FacePair>& pairs = tangles[at].pairs;
     if (pairs.empty()) return;
     const ContactSurface& surface = world.surfaces[at];
     const float most = untangled_within * world.neighborhood[at];
-    if (pairs.size() <= few)
+    if (attempt == 0 ? pairs.size() <= small : attempt > 1)
+      smooth_motion(surface, predicted[at], pairs, smoothing_rounds, most, *particles[at]);
+    else if (pairs.size() <= few)
       unfold(surface, world.rest[at], pairs, most, *particles[at]);
     else if (attempt == 0)
       smooth(surface, pairs, relaxing_rounds, most, *particles[at]);

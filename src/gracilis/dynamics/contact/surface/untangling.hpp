@@ -22,10 +22,11 @@ bool is_less(const Tangle& one, const Tangle& other);
 std::vector<Tangle> find_tangles(const ContactWorld& world, ContactWorldState& state,
                                  const std::vector<const Particles*>& particles, const Movers& movers);
 
-/// Takes tangled surfaces to their shape at rest there (unfolding.hpp). A tangle of many pairs is smoothed in the first
-/// attempt (0) of a step and gets its shape back in later ones: smoothing alone wears a thin tendon down to where it
-/// cuts itself for good.
+/// Untangles surfaces (unfolding.hpp). In the first attempt (0) of a step a small tangle goes back to where it was
+/// `predicted`, where the step began, as far from there as its surroundings went: that is tangled far less than what
+/// comes of it. A larger one is smoothed, and gets its shape at rest back in the next attempt: smoothing alone wears a
+/// thin tendon down to where it cuts itself for good. What is left after that goes back to the prediction, too.
 void untangle(const ContactWorld& world, const std::vector<Tangle>& tangles, int attempt,
-              const std::vector<Particles*>& particles);
+              const std::vector<Particles>& predicted, const std::vector<Particles*>& particles);
 
 }  // namespace gracilis
