@@ -33,12 +33,13 @@ Meeting folded_ball(float away, bool lay_in_another, bool other_pair_first = fal
   return meeting;
 }
 
-/// Whether there was anything to untangle.
+/// Whether there was anything to untangle. Without a prediction that is where everything was before the step.
 bool untangle_movers(Meeting& meeting, const Movers& movers, int attempt,
                      const std::vector<Particles>& predicted = {}) {
   const std::vector<Tangle> tangles =
       find_tangles(meeting.world, meeting.state, meeting.pointers<const Particles*>(meeting.particles), movers);
-  untangle(meeting.world, tangles, attempt, predicted, meeting.pointers<Particles*>(meeting.particles));
+  untangle(meeting.world, tangles, attempt, predicted.empty() ? meeting.state.before : predicted,
+           meeting.pointers<Particles*>(meeting.particles));
   return std::any_of(tangles.begin(), tangles.end(), [](const Tangle& tangle) { return !tangle.pairs.empty(); });
 }
 
