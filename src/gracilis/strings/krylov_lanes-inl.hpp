@@ -72,8 +72,8 @@ HWY_INLINE void scale(Numbers& a, float s) {
 
 /// Solves A x = b for several b: of all combinations of the residuals tried for this b and for those before, that which
 /// leaves the least (GMRES, Saad and Schultz 1986, in the form of Eisenstat, Elman and Schultz 1983; directions kept
-/// from one right side to the next as Fischer 1998 does). Vectors are points of whole
-/// groups of group_width nodes.
+/// from one right side to the next as Fischer 1998 does). Vectors are
+/// points of whole groups of group_width nodes.
 class KrylovLanes {
  public:
   /// `directions`: room for them, kept from one use to the next.

@@ -18,8 +18,8 @@ constexpr float untangled_within = 0.5f;
 /// surface so far from its shape that it folds again in the next steps.
 constexpr std::size_t few = 3;
 constexpr int relaxing_rounds = 4;
-/// No more pairs of faces than these go back to where the surface was predicted as their surroundings did, and so does
-/// what resists twice: the motion since is smoothed so many times over.
+/// A tangle of no more pairs of faces than these goes back to where the surface was predicted, as its surroundings did,
+/// and so does what resists twice: its motion since then is smoothed, so many times over.
 constexpr std::size_t small = 8;
 constexpr int smoothing_rounds = 64;
 
