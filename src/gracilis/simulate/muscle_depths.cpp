@@ -1,6 +1,5 @@
 #include <gracilis/simulate/muscle_depths.hpp>
 
-#include <gracilis/anatomy/overlap/rest_overlap.hpp>
 #include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
@@ -38,15 +37,6 @@ Vec3 MuscleDepths::place_at_rest(const DepthInOther& each) const {
   return scene_.muscles[static_cast<std::size_t>(each.surface)].surface.vertices.col(each.vertex);
 }
 
-/// The deepest that the two lie in each other at rest around a vertex, m.
-Real MuscleDepths::forgiven(const DepthInOther& each) const {
-  const Vec3 place = place_at_rest(each);
-  Real deepest = 0;
-  for (const RestDepth& rest : overlaps_[pair_of(each)])
-    if (rest.depth > deepest && (rest.place - place).squaredNorm() < slide_reach * slide_reach) deepest = rest.depth;
-  return deepest;
-}
-
 /// Of free vertices only: attached ones go with their bones wherever these go.
 std::vector<DepthInOther> MuscleDepths::depths_of(const std::vector<Points>& points) const {
   std::vector<DepthInOther> depths = surfaces_.find(points);
@@ -63,7 +53,7 @@ std::vector<DepthBeyondRest> MuscleDepths::beyond_rest(const Frame& frame) const
   for (const DepthInOther& each : depths_of(points)) {
     DepthBeyondRest& deepest = beyond[static_cast<std::size_t>(each.surface)];
     if (each.depth <= deepest.depth) continue;
-    const Real depth = each.depth - forgiven(each);
+    const Real depth = each.depth - deepest_around(overlaps_[pair_of(each)], place_at_rest(each));
     if (depth > deepest.depth) deepest = {depth, each.other};
   }
   return beyond;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
 #include <gracilis/geometry/mutual_depths.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
@@ -26,21 +27,14 @@ class MuscleDepths {
   std::vector<DepthBeyondRest> beyond_rest(const Frame& frame) const;
 
  private:
-  /// A vertex of one of two muscles that lies in the other at rest.
-  struct RestDepth {
-    Vec3 place;
-    Real depth;  ///< m
-  };
-
   std::vector<DepthInOther> depths_of(const std::vector<Points>& points) const;
   std::size_t pair_of(const DepthInOther& each) const;
   Vec3 place_at_rest(const DepthInOther& each) const;
-  Real forgiven(const DepthInOther& each) const;
 
   const Scene& scene_;
   std::vector<std::vector<char>> attached_;  ///< per muscle and vertex
   MutualDepths surfaces_;
-  std::vector<std::vector<RestDepth>> overlaps_;  ///< by pair_of
+  std::vector<std::vector<DepthAtRest>> overlaps_;  ///< by pair_of
 };
 
 }  // namespace gracilis

@@ -71,24 +71,28 @@ std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces
   return overlaps;
 }
 
+Real deepest_around(const std::vector<DepthAtRest>& overlapping, const Vec3& place) {
+  Real deepest = 0;
+  for (const DepthAtRest& each : overlapping)
+    if (each.depth > deepest && (each.place - place).squaredNorm() < slide_reach * slide_reach) deepest = each.depth;
+  return deepest;
+}
+
 DepthsAround depths_around(const RestOverlap& overlap, const RestSurface& first, const RestSurface& second) {
-  std::vector<std::pair<Vec3, Real>> overlapping;
+  std::vector<DepthAtRest> overlapping;
   const auto list = [&](const InsideVertices& inside, const RestSurface& surface) {
     for (std::size_t i = 0; i < inside.vertices.size(); ++i)
       if (surface.is_free[static_cast<std::size_t>(inside.vertices[i])])
-        overlapping.emplace_back(surface.rest.col(inside.vertices[i]), inside.depths[i]);
+        overlapping.push_back({surface.rest.col(inside.vertices[i]), inside.depths[i]});
   };
   list(overlap.of_first, first);
   list(overlap.of_second, second);
   if (overlapping.empty()) return {};
   const auto around = [&](const Points& places) {
-    std::vector<float> depths(static_cast<std::size_t>(places.cols()), 0);
+    std::vector<float> depths(static_cast<std::size_t>(places.cols()));
     parallel_for(static_cast<Index>(places.cols()), 256, [&](Index begin, Index end) {
       for (Index v = begin; v < end; ++v)
-        for (const auto& [place, depth] : overlapping)
-          if ((place - places.col(v)).squaredNorm() < slide_reach * slide_reach)
-            depths[static_cast<std::size_t>(v)] =
-                std::max(depths[static_cast<std::size_t>(v)], static_cast<float>(depth));
+        depths[static_cast<std::size_t>(v)] = static_cast<float>(deepest_around(overlapping, places.col(v)));
     });
     return depths;
   };

@@ -31,8 +31,15 @@ struct RestOverlap {
 /// within it.
 inline constexpr Real slide_reach = 0.03;
 
-/// How deep two surfaces lie in each other at rest around each vertex of one of them, m: the deepest of all free
-/// vertices of both within `slide_reach`. Empty where no free vertex lies in the other.
+/// Where a free vertex of one of two surfaces lies at rest, and how deep in the other, both m.
+struct DepthAtRest {
+  Vec3 place;
+  Real depth;
+};
+/// The deepest of those within `slide_reach` of a place, m; 0 where there is none.
+Real deepest_around(const std::vector<DepthAtRest>& overlapping, const Vec3& place);
+
+/// That around each vertex of both surfaces. Empty where no free vertex lies in the other.
 struct DepthsAround {
   std::vector<float> of_first, of_second;
 };

@@ -79,19 +79,15 @@ void spread_over_triangles(const TriangleMesh& surface, PreparedTissue& prepared
   for (SurfacePoint& point : prepared.points) point.area = std::max(point.area, 0.0);
 }
 
-/// How far each point is from each body's nearest bone, within `reach`; a column a point, a row for each of `bodies`.
-Eigen::MatrixXd distances_to_bodies(const Scene& scene, const std::vector<Index>& bodies,
-                                    const std::vector<SignedDistance>& distances,
+/// How far each point is from the nearest bone of each body of the scene, m, at most `reach`; a column a point.
+Eigen::MatrixXd distances_to_bodies(const Scene& scene, const std::vector<SignedDistance>& distances,
                                     const std::vector<SurfacePoint>& points, Real reach) {
-  std::vector<Index> row_of_bone;
-  for (const Bone& bone : scene.bones)
-    row_of_bone.push_back(std::find(bodies.begin(), bodies.end(), bone.body) - bodies.begin());
   const auto count = static_cast<Index>(points.size());
-  Eigen::MatrixXd nearest = Eigen::MatrixXd::Constant(static_cast<Index>(bodies.size()), count, reach);
+  Eigen::MatrixXd nearest = Eigen::MatrixXd::Constant(static_cast<Index>(scene.bodies.size()), count, reach);
   parallel_for(count, 64, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v)
       for (std::size_t b = 0; b < distances.size(); ++b) {
-        Real& of_body = nearest(row_of_bone[b], v);
+        Real& of_body = nearest(scene.bones[b].body, v);
         of_body = std::min(of_body, distances[b].query(points[static_cast<std::size_t>(v)].rest, reach).distance);
       }
   });
@@ -102,19 +98,16 @@ Eigen::MatrixXd distances_to_bodies(const Scene& scene, const std::vector<Index>
 /// whatever pieces its bones come in. Where fibers gather in a tendon they glide more easily.
 void tie_to_bodies(const Scene& scene, const std::vector<SignedDistance>& distances, PreparedTissue& prepared) {
   const TissueSettings& settings = prepared.settings;
-  std::vector<Index> bodies;
-  for (const Bone& bone : scene.bones)
-    if (std::find(bodies.begin(), bodies.end(), bone.body) == bodies.end()) bodies.push_back(bone.body);
-  const Eigen::MatrixXd nearest = distances_to_bodies(scene, bodies, distances, prepared.points, settings.fascia_reach);
+  const Eigen::MatrixXd nearest = distances_to_bodies(scene, distances, prepared.points, settings.fascia_reach);
   for (Index v = 0; v < nearest.cols(); ++v) {
     SurfacePoint& point = prepared.points[static_cast<std::size_t>(v)];
     point.ties_begin = static_cast<Index>(prepared.ties.size());
     const Real gliding = std::min(1.0, 1 / prepared.relative_tension[static_cast<std::size_t>(point.at.cell)]);
-    for (std::size_t b = 0; b < bodies.size() && point.held_by < 0; ++b) {
-      const Real share = 1 - std::max(0.0, nearest(static_cast<Index>(b), v)) / settings.fascia_reach;
+    for (Index body = 0; body < nearest.rows() && point.held_by < 0; ++body) {
+      const Real share = 1 - std::max(0.0, nearest(body, v)) / settings.fascia_reach;
       if (share > 0 && settings.fascia_stiffness > 0)
-        prepared.ties.push_back({bodies[b], prepared.directions.col(point.at.cell),
-                                 settings.fascia_stiffness * point.area * share * gliding});
+        prepared.ties.push_back(
+            {body, prepared.directions.col(point.at.cell), settings.fascia_stiffness * point.area * share * gliding});
     }
     point.ties_end = static_cast<Index>(prepared.ties.size());
   }

@@ -11,20 +11,19 @@ namespace gracilis::xpbd {
 
 namespace {
 
-Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const ContactWorld& world, ContactWorldState& state) {
+Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const std::vector<Particles>& predicted,
+                            const ContactWorld& world, ContactWorldState& state) {
   const auto particles = particles_of<Particles*>(steps);
   const auto seen = particles_of<const Particles*>(steps);
   std::vector<const Particles*> start;
   for (const MuscleStep& step : steps) start.push_back(&step.state->start);
-  std::vector<Particles> predicted;
-  for (const Particles* each : seen) predicted.push_back(*each);
   update_broad_phase(world, seen, state);
   return {[&world, &state, seen](const Movers& movers) { update_narrow_phase(world, seen, state, movers); },
           [&world, &state, start, particles](const Movers& movers) {
             return project_candidates(world, state, start, particles, movers);
           },
           [&world, &state, seen](const Movers& movers) { return find_tangles(world, state, seen, movers); },
-          [&world, particles, predicted = std::move(predicted)](const std::vector<Tangle>& tangles, int attempt) {
+          [&world, particles, &predicted](const std::vector<Tangle>& tangles, int attempt) {
             untangle(world, tangles, attempt, predicted, particles);
           },
           [&world, &state, particles] { return repair_penetrations(world, state, particles); }};
@@ -37,18 +36,19 @@ Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdge
           [&world, &state, particles](const Movers&) { return project_virtual_edges(world, particles, state); }};
 }
 
-Coupling couple_by_contact(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
-                           MuscleContactState& state) {
-  if (!world.surfaces.pairs.empty()) return couple_by_surfaces(steps, world.surfaces, state.surfaces);
+Coupling couple_by_contact(const std::vector<MuscleStep>& steps, const std::vector<Particles>& predicted,
+                           const MuscleContactWorld& world, MuscleContactState& state) {
+  if (!world.surfaces.pairs.empty()) return couple_by_surfaces(steps, predicted, world.surfaces, state.surfaces);
   if (!world.edges.pairs.empty()) return couple_by_edges(steps, world.edges, state.edges);
   return {[](const Movers&) {}, [](const Movers&) { return Index{0}; }};
 }
 
 }  // namespace
 
-Coupling couple(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world, MuscleContactState& state) {
+Coupling couple(const std::vector<MuscleStep>& steps, const std::vector<Particles>& predicted,
+                const MuscleContactWorld& world, MuscleContactState& state) {
   if (!world.meets()) return {};
-  Coupling coupling = couple_by_contact(steps, world, state);
+  Coupling coupling = couple_by_contact(steps, predicted, world, state);
   if (!world.ties.any()) return coupling;
   coupling.project = [&ties = world.ties.surfaces, project = std::move(coupling.project),
                       particles = particles_of<Particles*>(steps)](const Movers& movers) {

@@ -16,8 +16,9 @@ std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
   return particles;
 }
 
-/// What acts between muscles, from where they are predicted. The contact world, its state and the steps' states
-/// must outlive it.
-Coupling couple(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world, MuscleContactState& state);
+/// What acts between muscles, from where they are: the prediction. The contact world, its state, the steps' states and
+/// `predicted`, a copy of their particles, must outlive it.
+Coupling couple(const std::vector<MuscleStep>& steps, const std::vector<Particles>& predicted,
+                const MuscleContactWorld& world, MuscleContactState& state);
 
 }  // namespace gracilis::xpbd

@@ -69,7 +69,7 @@ Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Partic
                      MuscleContactState& contact_state) {
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].state->particles = predicted[i];
   std::vector<std::optional<ConstraintKind>> first(steps.size());
-  solve_together(solves, couple(steps, world, contact_state), [&](std::size_t i, ConstraintKind kind) {
+  solve_together(solves, couple(steps, predicted, world, contact_state), [&](std::size_t i, ConstraintKind kind) {
     if (!first[i] && !is_finite(steps[i].state->particles)) first[i] = kind;
   });
   for (std::size_t i = 0; i < first.size(); ++i)
@@ -136,7 +136,8 @@ void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleContactWo
     if (!is_finite(substep.predicted[i]))
       throw QualityError("muscle " + steps[i].muscle->name +
                          ": a vertex position is not finite before the solver; check the pose and the velocities");
-  solve_together(substep.solves, couple(steps, world, contact_state), record_passes(steps, substep.solves));
+  solve_together(substep.solves, couple(steps, substep.predicted, world, contact_state),
+                 record_passes(steps, substep.solves));
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
   if (std::any_of(steps.begin(), steps.end(), is_lost)) {
     contact_state.edges = substep.edges_before;
