@@ -60,8 +60,8 @@ struct Setting : SettingInfo {
   template <class T, class Owner>
   requires std::derived_from<Settings, Owner> Setting(std::string_view name, T Owner::*member, std::string_view in_unit,
                                                       Real least, Real greatest, std::string_view sentence,
-                                                      bool of_all = false)
-      : SettingInfo{name, kind_of<T>(), in_unit, least, greatest, sentence, of_all} {
+                                                      bool of_all = false) {
+    SettingInfo::operator=({name, kind_of<T>(), in_unit, least, greatest, sentence, of_all});
     if constexpr (std::is_enum_v<T>) {
       for (const std::string_view choice : choices_of(T{})) choices.push_back(choice);
       get = [member](const Settings& s) { return std::string(choices_of(T{})[static_cast<std::size_t>(s.*member)]); };
