@@ -54,10 +54,14 @@ TEST(Fascicles, along_noisy_tracts_with_outliers_run_like_those_of_a_unipennate_
 }
 
 TEST(Fascicles, end_where_the_two_sides_of_a_bipennate_muscle_meet) {
-  const PennateMuscle known(true, 6);
-  Muscle muscle = known.muscle();
-  muscle.tracts = measured(known, 400);
-  expect_fibers(known, muscle, 4, 35, 0.1);
+  for (const Real bend : {0.0, 6.0}) {
+    const PennateMuscle known(true, bend);
+    Muscle muscle = known.muscle();
+    muscle.tracts = measured(known, 400);
+    expect_fibers(known, muscle, 1.5, 8, 0.03);
+    muscle.tracts = measured(known, 60);
+    expect_fibers(known, muscle, 5, 60, 0.15);
+  }
 }
 
 TEST(Fascicles, between_given_aponeuroses_run_from_one_to_the_other) {

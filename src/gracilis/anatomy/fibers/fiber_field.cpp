@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace gracilis {
@@ -18,11 +19,15 @@ Vec3 FiberField::direction(const Vec3& p) const {
 
 namespace {
 
+/// How much of the smoothing each edge of the grid keeps.
+using EdgeShares = std::vector<Real>;
+
 /// The quadratic energy of smooth_directions.
 class DirectionEnergy {
  public:
-  DirectionEnergy(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing)
-      : grid_(grid), smoothness_(smoothing * smoothing * grid.step()) {
+  DirectionEnergy(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing,
+                  const EdgeShares& shares)
+      : grid_(grid), smoothness_(smoothing * smoothing * grid.step()), shares_(shares) {
     Real total = 0, volume = 0;
     for (const Real depth : grid.depths()) volume += depth > 0 ? std::pow(grid.step(), 3) : 0;
     for (const DirectionSample& sample : samples) total += sample.weight;
@@ -34,8 +39,9 @@ class DirectionEnergy {
   /// Half of the energy's gradient, without what is constant in it.
   Points product(const Points& v) const {
     Points result = 1e-12 * smoothness_ * v;  // what no sample reaches
-    for (const SolidGrid::Edge& edge : grid_.edges()) {
-      const Vec3 flow = conductance(edge) * (v.col(edge.a) - v.col(edge.b));
+    for (std::size_t e = 0; e < shares_.size(); ++e) {
+      const SolidGrid::Edge& edge = grid_.edges()[e];
+      const Vec3 flow = conductance(e) * (v.col(edge.a) - v.col(edge.b));
       result.col(edge.a) += flow;
       result.col(edge.b) -= flow;
     }
@@ -51,8 +57,8 @@ class DirectionEnergy {
 
   Points diagonal() const {
     Points result = Points::Constant(3, grid_.count(), 1e-12 * smoothness_);
-    for (const SolidGrid::Edge& edge : grid_.edges())
-      for (const Index n : {edge.a, edge.b}) result.col(n).array() += conductance(edge);
+    for (std::size_t e = 0; e < shares_.size(); ++e)
+      for (const Index n : {grid_.edges()[e].a, grid_.edges()[e].b}) result.col(n).array() += conductance(e);
     for (const Term& term : samples_) add_diagonal(term, result);
     return result;
   }
@@ -64,7 +70,7 @@ class DirectionEnergy {
     Real weight;
   };
 
-  Real conductance(const SolidGrid::Edge& edge) const { return smoothness_ * edge.share; }
+  Real conductance(std::size_t edge) const { return smoothness_ * grid_.edges()[edge].share * shares_[edge]; }
 
   static void spread(const Term& term, const Vec3& vector, Points& result) {
     for (std::size_t k = 0; k < 8; ++k) result.col(term.at.nodes[k]) += term.weight * term.at.weights[k] * vector;
@@ -76,16 +82,18 @@ class DirectionEnergy {
 
   const SolidGrid& grid_;
   Real smoothness_;
+  const EdgeShares& shares_;
   std::vector<Term> samples_;
 };
 
-}  // namespace
+EdgeShares all_of(const SolidGrid& grid) { return EdgeShares(grid.edges().size(), 1); }
 
-Points smooth_directions(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing,
-                         const Points& start) {
+/// smooth_directions where edges keep their shares of the smoothing only.
+Points directions_of_least_energy(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing,
+                                  const EdgeShares& shares, const Points& start) {
   constexpr int most_iterations = 1000;
   constexpr Real accuracy = 1e-4;  // of directions, which are unit: far below what tracts tell
-  const DirectionEnergy energy(grid, samples, smoothing);
+  const DirectionEnergy energy(grid, samples, smoothing, shares);
   const Points inverse = energy.diagonal().cwiseInverse();
   const Points right = energy.right_side();
   // Conjugate gradients (Hestenes and Stiefel 1952), preconditioned by the diagonal.
@@ -106,8 +114,6 @@ Points smooth_directions(const SolidGrid& grid, const std::vector<DirectionSampl
   return x;
 }
 
-namespace {
-
 /// Angles between samples and field, rad.
 std::vector<Real> angles_off(const FiberField& field, const std::vector<DirectionSample>& samples) {
   std::vector<Real> angles;
@@ -124,6 +130,9 @@ Real median_of(std::vector<Real> values) {
   return *middle;
 }
 
+/// Geman and McClure's: what lies by much more than the scale beside the rest hardly counts.
+Real robust_weight(Real by_scale) { return std::pow(1 + by_scale * by_scale, -2); }
+
 /// Turns tracts around that run against the field.
 void turn_tracts(const FiberField& field, std::vector<DirectionSample>& samples) {
   std::map<Index, Real> agreement;
@@ -133,51 +142,92 @@ void turn_tracts(const FiberField& field, std::vector<DirectionSample>& samples)
     if (agreement[sample.tract] < 0) sample.direction = -sample.direction;
 }
 
-/// Fits, judges the samples by the fit, and fits again, so many rounds.
-FiberField robust_fit(const SolidGrid& grid, std::vector<DirectionSample> samples, Real smoothing, int rounds) {
+/// How a field is smooth: over so far, m, and perhaps not where it turns much faster than it does elsewhere.
+struct Smoothness {
+  Real reach = 0;
+  bool has_seams = false;
+};
+
+/// Edges keep the less the more the field turns along them.
+EdgeShares seams_in(const SolidGrid& grid, const Points& vectors) {
+  constexpr Real usual_turns = 3, least_turn = 0.02;
+  std::vector<Real> turns;
+  for (const SolidGrid::Edge& edge : grid.edges()) turns.push_back((vectors.col(edge.a) - vectors.col(edge.b)).norm());
+  const Real scale = std::max(least_turn, usual_turns * median_of(turns));
+  EdgeShares shares;
+  for (const Real turn : turns) shares.push_back(robust_weight(turn / scale));
+  return shares;
+}
+
+/// Fits, judges the samples, and seams, by the fit, and fits again, so many rounds.
+FiberField robust_fit(const SolidGrid& grid, std::vector<DirectionSample> samples, const Smoothness& smoothness,
+                      int rounds) {
   constexpr Real least_scale = radians(5);  // nobody measures directions better
-  FiberField field(grid, smooth_directions(grid, samples, smoothing, Points::Zero(3, grid.count())), smoothing);
+  const Real turn_reach = smoothness.has_seams ? 2 * grid.step() : smoothness.reach;
+  EdgeShares shares = all_of(grid);
+  FiberField field(grid,
+                   directions_of_least_energy(grid, samples, smoothness.reach, shares, Points::Zero(3, grid.count())),
+                   turn_reach);
   for (int round = 0; round < rounds; ++round) {
     turn_tracts(field, samples);
     const std::vector<Real> angles = angles_off(field, samples);
     const Real scale = std::max(least_scale, 2 * median_of(angles));
     std::vector<DirectionSample> weighed = samples;
-    for (std::size_t i = 0; i < weighed.size(); ++i)
-      weighed[i].weight /= std::pow(1 + std::pow(angles[i] / scale, 2), 2);
-    field = FiberField(grid, smooth_directions(grid, weighed, smoothing, field.vectors()), smoothing);
+    for (std::size_t i = 0; i < weighed.size(); ++i) weighed[i].weight *= robust_weight(angles[i] / scale);
+    if (smoothness.has_seams) shares = seams_in(grid, field.vectors());
+    field = FiberField(grid, directions_of_least_energy(grid, weighed, smoothness.reach, shares, field.vectors()),
+                       turn_reach);
   }
   return field;
 }
 
-/// Which half of the tracts one belongs to, whatever order they come in.
-Index half_of(Index tract) { return static_cast<Index>((static_cast<std::uint32_t>(tract) * 2654435769u) >> 31); }
+/// Which of some parts of the tracts one belongs to, whatever order they come in.
+std::uint32_t part_of(Index tract, std::uint32_t parts) {
+  return static_cast<std::uint32_t>((std::uint64_t{static_cast<std::uint32_t>(tract) * 2654435769u} * parts) >> 32);
+}
 
-/// How far off a field fitted to one half of the tracts is on the other half, for both.
-Real cross_error(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing) {
+/// How far off a field is on a part of the tracts when fitted to the others, for each of `parts`.
+Real cross_error(const SolidGrid& grid, const std::vector<DirectionSample>& samples, const Smoothness& smoothness,
+                 std::uint32_t parts) {
   std::vector<Real> angles;
-  for (const Index half : {0, 1}) {
+  for (std::uint32_t part = 0; part < parts; ++part) {
     std::vector<DirectionSample> fitted, kept;
-    for (const DirectionSample& sample : samples) (half_of(sample.tract) == half ? fitted : kept).push_back(sample);
-    if (fitted.empty() || kept.empty()) return 0;
-    const FiberField field = robust_fit(grid, fitted, smoothing, 2);
+    for (const DirectionSample& sample : samples)
+      (part_of(sample.tract, parts) == part ? kept : fitted).push_back(sample);
+    if (fitted.empty() || kept.empty()) continue;
+    const FiberField field = robust_fit(grid, fitted, smoothness, smoothness.has_seams ? 4 : 2);
     turn_tracts(field, kept);
-    const std::vector<Real> of_half = angles_off(field, kept);
-    angles.insert(angles.end(), of_half.begin(), of_half.end());
+    const std::vector<Real> of_part = angles_off(field, kept);
+    angles.insert(angles.end(), of_part.begin(), of_part.end());
   }
-  return median_of(angles);
+  return angles.empty() ? 0 : median_of(angles);
 }
 
 }  // namespace
 
+Points smooth_directions(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing,
+                         const Points& start) {
+  return directions_of_least_energy(grid, samples, smoothing, all_of(grid), start);
+}
+
 FiberField fitted_field(const SolidGrid& grid, std::vector<DirectionSample> samples) {
+  constexpr int rounds = 5;
+  constexpr Real clearly = 0.9;  // nearer to what is kept: then there are seams
   Real volume = 0;
   for (const Real depth : grid.depths()) volume += depth > 0 ? std::pow(grid.step(), 3) : 0;
-  Real best = 0, least = std::numeric_limits<Real>::infinity();
-  for (const Real share : {0.5, 0.25, 0.125, 0.0625, 0.03125}) {
-    const Real smoothing = share * std::cbrt(volume), error = cross_error(grid, samples, smoothing);
-    if (error < least) least = error, best = smoothing;
-  }
-  return robust_fit(grid, std::move(samples), best, 5);
+  std::set<Index> tracts;
+  for (const DirectionSample& sample : samples) tracts.insert(sample.tract);
+  const std::uint32_t parts = tracts.size() < 200 ? 4 : 2;
+  Smoothness best;
+  Real least = std::numeric_limits<Real>::infinity();
+  const auto try_smoothness = [&](const Smoothness& each, Real enough) {
+    const Real error = cross_error(grid, samples, each, parts);
+    if (error < enough * least) least = error, best = each;
+  };
+  for (const Real share : {0.5, 0.25, 0.125, 0.0625, 0.03125}) try_smoothness({share * std::cbrt(volume), false}, 1);
+  for (const Real share : {0.25, 0.125})
+    try_smoothness({share * std::cbrt(volume), true}, best.has_seams ? 1 : clearly);
+  return robust_fit(grid, std::move(samples), best, rounds);
 }
 
 }  // namespace gracilis

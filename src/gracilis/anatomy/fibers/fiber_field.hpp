@@ -17,15 +17,15 @@ struct DirectionSample {
 /// Which way fibers run in a muscle, smooth, from origin to insertion.
 class FiberField {
  public:
-  /// Vectors at the nodes (3 × their count) that need not be unit, and how far each sample spoke for its surroundings,
-  /// m.
+  /// Vectors at the nodes (3 × their count) that need not be unit, and the way over which a jump of directions is
+  /// spread in them, m.
   FiberField(const SolidGrid& grid, Points vectors, Real smoothing)
       : grid_(&grid), vectors_(std::move(vectors)), smoothing_(smoothing) {}
 
   /// Unit; zero where nothing is known.
   Vec3 direction(const Vec3& p) const;
   const Points& vectors() const { return vectors_; }  ///< at the nodes, as given: 3 × their count
-  Real smoothing() const { return smoothing_; }       ///< m: how far each sample spoke
+  Real smoothing() const { return smoothing_; }       ///< m
 
  private:
   const SolidGrid* grid_;
@@ -40,8 +40,8 @@ Points smooth_directions(const SolidGrid& grid, const std::vector<DirectionSampl
 
 /// The same where samples may be noisy, turned around, or wrong: tracts are turned to agree with the field, and samples
 /// count the less the more they are at odds with it (Geman and McClure's weights, their scale from the samples). How
-/// smooth it is is chosen so that the field fitted to one half of the tracts tells the other half best. Precondition:
-/// there is a sample.
+/// smooth it is, and whether it may jump where two sides meet, is chosen so that the field fitted to a part of the
+/// tracts tells the others best. Precondition: there is a sample.
 FiberField fitted_field(const SolidGrid& grid, std::vector<DirectionSample> samples);
 
 }  // namespace gracilis
