@@ -3,11 +3,15 @@
 # makes of a flexed hip. The built-in hip needs no data; with them gluteus maximus and attachments of the cadaver. Three minutes of one core.
 #   reproductions/cervenka-2024/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]
 # Leaves OUT/index.html, OUT/results.csv (published beside ours), OUT/tables and OUT/figures. --thin: few functions, two muscles and 10 degrees.
-# Needs gracilis_rbf_tables beside gracilis: cmake --build --preset release --target gracilis_rbf_tables
+# Its tables are gracilis_rbf_tables', which stands beside gracilis; where it is missing in a build folder it is built.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../family/options.sh" cervenka-2024 "$@"
-[[ -x $(dirname "$gracilis")/gracilis_rbf_tables ]] || {
-  echo "there is no $(dirname "$gracilis")/gracilis_rbf_tables: cmake --build --preset release --target gracilis_rbf_tables" >&2
+programs=$(cd "$(dirname "$gracilis")" && pwd)
+if [[ ! -x $programs/gracilis_rbf_tables && -f $programs/../CMakeCache.txt ]]; then
+  cmake --build "$programs/.." --target gracilis_rbf_tables >&2
+fi
+[[ -x $programs/gracilis_rbf_tables ]] || {
+  echo "there is no $programs/gracilis_rbf_tables (cmake --build --preset release --target gracilis_rbf_tables builds one)" >&2
   exit 1
 }
 reproduce
